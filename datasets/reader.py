@@ -1,0 +1,122 @@
+"""`Reader`: the part that all readers share, which is the rules of the canonical step."""
+
+from abc import ABC, abstractmethod
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+from ial.datasets.info import RecordingInfo, Topic, describe
+from ial.datasets.odometry import Odometry
+from ial.datasets.recording import Reading
+from ial.datasets.scan import LaserScan
+from ial.errors import RecordingError
+
+_MILLISECOND = 10**6
+
+
+@dataclass(frozen=True)
+class Record:
+    """One scan as it stands in a file.
+
+    Parameters
+    ----------
+    stamp_ns
+        Its stamp; None where it could not be read.
+    odometry
+        Its odometry; None where there is none.
+    scan
+        The arguments of `LaserScan`, without the stamp.
+    fault
+        Why it cannot be used, if it cannot.
+    """
+
+    stamp_ns: int | None
+    odometry: Odometry | None = None
+    scan: dict[str, Any] = field(default_factory=dict)
+    fault: str = ""
+
+
+class Reader(ABC):
+    """A recording in a file: a subclass yields its records, this class makes them canonical readings.
+
+    A stamp that does not increase becomes its predecessor's plus 1 ms and is counted; a scan that cannot be used is counted by its reason.
+
+    Parameters
+    ----------
+    name
+        What to call the recording in messages, usually its path.
+    """
+
+    format = ""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.skipped: Counter[str] = Counter()
+        self.repaired: Counter[str] = Counter()
+
+    @abstractmethod
+    def _records(self) -> Iterator[Record]:
+        """Yield the scans in the order of the file."""
+
+    def _topics(self) -> list[Topic]:
+        """Return the streams in the file."""
+        return []
+
+    def _frames(self) -> dict[str, str]:
+        """Return the names of the frames in use, by role."""
+        return {}
+
+    def readings(self) -> Iterator[Reading]:
+        """Yield the scans in the order of recording.
+
+        Raises
+        ------
+        RecordingError
+            If the recording cannot be read to its end, or yields no scan at all.
+        """
+        self.skipped.clear()
+        self.repaired.clear()
+        yielded = 0
+        last: int | None = None
+        for index, record in enumerate(self._records()):
+            stamp = record.stamp_ns
+            if stamp is not None and last is not None and stamp <= last:
+                stamp = last + _MILLISECOND
+                self.repaired["stamp did not increase: set to its predecessor's plus 1 ms"] += 1
+            last = last if stamp is None else stamp
+            scan = self._scan(record, stamp)
+            if isinstance(scan, str):
+                self.skipped[scan] += 1
+            elif record.odometry is not None:
+                yielded += 1
+                yield Reading(index, scan.stamp_ns, record.odometry, scan)
+        if not yielded:
+            self._refuse()
+
+    def _scan(self, record: Record, stamp: int | None) -> LaserScan | str:
+        """Return the scan, or the reason why it is skipped."""
+        if record.fault or stamp is None:
+            return record.fault or "scan without a readable stamp"
+        if record.odometry is None:
+            return "no odometry"
+        try:
+            return LaserScan(stamp_ns=stamp, **record.scan)
+        except RecordingError as error:
+            return str(error)
+
+    def _refuse(self) -> None:
+        if not self.skipped:
+            raise RecordingError(f"{self.name}: there is no scan in it; check with `ial info` that this is the right file and topic")
+        reasons = ", ".join(f"{count} × {reason}" for reason, count in self.skipped.items())
+        advice = "; record the odometry too (an Odometry topic or tf odom → base_link; ODOM lines in a CARMEN log)"
+        hint = advice if "no odometry" in self.skipped else ""
+        raise RecordingError(f"{self.name}: none of its {sum(self.skipped.values())} scans can be used: {reasons}{hint}")
+
+    def info(self) -> RecordingInfo:
+        """Read the recording and say what it holds and what is missing."""
+        try:
+            topics, frames = self._topics(), self._frames()
+        except RecordingError as error:
+            return RecordingInfo(self.name, self.format, missing=[str(error)])
+        return describe(self, self.format, topics, frames)

@@ -1,0 +1,139 @@
+"""`Recording`: what every reader yields, and the steps that a localizer takes from it."""
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Protocol
+
+from ial.datasets.info import RecordingInfo
+from ial.datasets.motion import Motion, MotionBounds
+from ial.datasets.odometry import Odometry
+from ial.datasets.scan import BeamClass, LaserScan
+from ial.errors import RecordingError
+from ial.pose import Pose
+
+
+@dataclass(frozen=True, eq=False)
+class Reading:
+    """One raw scan with its odometry: the canonical step, whose bits do not depend on the file format.
+
+    Parameters
+    ----------
+    index
+        Number of the scan in the recording, from 0; skipped scans are counted.
+    stamp_ns
+        Time in nanoseconds, strictly increasing within a recording.
+    odometry
+        Where the odometry says the robot was at that time.
+    scan
+        The scan.
+    """
+
+    index: int
+    stamp_ns: int
+    odometry: Odometry
+    scan: LaserScan
+
+
+class Recording(Protocol):
+    """A recorded or simulated run. It may be read several times, by one reader at a time.
+
+    Attributes
+    ----------
+    name
+        What to call it in messages and results.
+    skipped
+        Number of scans left out by the last `readings`, by reason; complete when that has ended.
+    repaired
+        Number of faults mended by the last `readings`, by kind (such as a stamp that did not increase).
+    """
+
+    name: str
+    skipped: Counter[str]
+    repaired: Counter[str]
+
+    def readings(self) -> Iterator[Reading]:
+        """Yield the scans in the order of recording.
+
+        Raises
+        ------
+        RecordingError
+            If the recording cannot be read to its end, or yields no scan at all.
+        """
+        ...
+
+    def info(self) -> RecordingInfo:
+        """Read the recording and say what it holds and what is missing."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """One processed scan and the motion since the one processed before.
+
+    Parameters
+    ----------
+    index, stamp_ns, scan
+        As in `Reading`.
+    motion
+        The motion since the last processed scan; None for the first.
+    odometry
+        ``T_odom_base`` at the scan, for pictures.
+    """
+
+    index: int
+    stamp_ns: int
+    motion: Motion | None
+    scan: LaserScan
+    odometry: Pose
+
+
+def steps(recording: Recording, bounds: MotionBounds, start: int = 0, stop: int | None = None, every: int = 1) -> Iterator[Step]:
+    """Yield the scans start, start + every, … below stop, each with the motion since the one yielded before.
+
+    Every recorded odometry step in between is enclosed by `bounds` and composed in interval arithmetic.
+
+    Parameters
+    ----------
+    recording
+        The recording to read.
+    bounds
+        How far one recorded odometry step may be from the truth.
+    start, stop, every
+        Which raw scans to process, like a slice; `stop` is exclusive.
+
+    Raises
+    ------
+    RecordingError
+        If the recording cannot be read, if no scan is chosen, or if no chosen scan has a usable beam.
+    """
+    if start < 0 or every < 1 or (stop is not None and stop <= start):
+        raise RecordingError(f"no scan lies in from {start} to {stop} every {every}; give 0 <= from < to and every >= 1")
+    previous: Reading | None = None
+    motion: Motion | None = None
+    yielded, usable = 0, False
+    for reading in recording.readings():
+        if stop is not None and reading.index >= stop:
+            break
+        if previous is not None and motion is not None:
+            motion = motion.compose(bounds.enclose(Motion.between(previous.odometry, reading.odometry)))
+        previous = reading
+        if reading.index < start or (reading.index - start) % every:
+            continue
+        usable = usable or bool((reading.scan.classes() == BeamClass.HIT).any())
+        yield Step(reading.index, reading.stamp_ns, motion if yielded else None, reading.scan, reading.odometry.pose)
+        yielded += 1
+        motion = Motion.identity()
+    _check_any(recording, yielded, usable, start)
+
+
+def _check_any(recording: Recording, yielded: int, usable: bool, start: int) -> None:
+    reasons = ", ".join(f"{count} × {reason}" for reason, count in recording.skipped.items())
+    if not yielded:
+        skipped = f" (skipped: {reasons})" if reasons else ""
+        raise RecordingError(f"{recording.name}: no scan was left to process from scan {start} on{skipped}; choose an earlier --from")
+    if not usable:
+        raise RecordingError(
+            f"{recording.name}: none of the {yielded} processed scans has a usable beam (all are NaN, too near, or without a return), "
+            "so nothing can be localized; check the driver's range_min and range_max with `ial info`"
+        )

@@ -1,0 +1,144 @@
+"""`RosBag`: recordings of ROS 1 and ROS 2."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from ial.datasets.bag_file import BagFile
+from ial.datasets.info import Topic
+from ial.datasets.odometry import Odometry
+from ial.datasets.odometry_buffer import OdometryBuffer
+from ial.datasets.reader import Reader, Record
+from ial.datasets.ros_frames import BASE_FRAMES, frame_name, mounting_of, odometry_from_tf, odometry_of, stamp_of, take_transforms
+from ial.datasets.scan import Mounting
+from ial.datasets.tf_buffer import TransformBuffer
+from ial.errors import RecordingError
+from ial.pose import Pose
+
+SCAN_TYPE = "sensor_msgs/msg/LaserScan"
+ODOMETRY_TYPE = "nav_msgs/msg/Odometry"
+TRANSFORM_TYPES = ("tf2_msgs/msg/TFMessage", "tf/msg/tfMessage")
+ERROR_TYPE = "geometry_msgs/msg/Vector3Stamped"
+ERROR_TOPIC = "/odom_error"  # written by `convert`: how far an interpolated odometry may be off, metres in x and radians in z
+
+
+@dataclass(frozen=True)
+class _Robot:
+    """What is known of the robot before its scans are read."""
+
+    transforms: TransformBuffer
+    odometry: OdometryBuffer
+    base: str
+
+
+class RosBag(Reader):
+    """A ROS 1 ``.bag``, a ROS 2 bag folder, or a bare ``.db3`` or ``.mcap``.
+
+    Stamps are those of the headers. The odometry of a scan is looked up at its stamp (`OdometryBuffer`); a scan outside is skipped.
+
+    Parameters
+    ----------
+    path
+        The file or folder.
+    scan_topic
+        The LaserScan topic; needed only if there are several.
+    odom_topic
+        The Odometry topic, needed only if there are several; ``/tf`` takes the transform odom → base_link instead.
+    laser_pose
+        Where the laser sits, ``T_base_laser``; without it, as tf says.
+    """
+
+    format = "ROS bag"
+
+    def __init__(self, path: Path, scan_topic: str | None = None, odom_topic: str | None = None, laser_pose: Pose | None = None) -> None:
+        super().__init__(str(path))
+        self._path = path
+        self._scan_topic = scan_topic
+        self._odom_topic = odom_topic
+        self._mounting = None if laser_pose is None else Mounting(laser_pose.x, laser_pose.y, laser_pose.theta)
+        self._used_frames: dict[str, str] = {}
+
+    def _topics(self) -> list[Topic]:
+        with BagFile(self._path) as bag:
+            self.format = bag.format
+            return bag.topics
+
+    def _frames(self) -> dict[str, str]:
+        return self._used_frames  # filled while reading
+
+    def _records(self) -> Iterator[Record]:
+        with BagFile(self._path) as bag:
+            topic = self._choose(bag, SCAN_TYPE, self._scan_topic, "--scan-topic")
+            if topic is None:
+                raise RecordingError(f"{self.name}: no topic with laser scans ({SCAN_TYPE}); its topics are: {_listed(bag.topics)}")
+            robot = self._robot(bag)
+            self._used_frames["base"] = robot.base
+            mountings: dict[str, Mounting] = {}
+            for _, message in bag.messages([topic]):
+                frame = frame_name(message.header.frame_id)
+                if frame not in mountings:
+                    mountings[frame] = self._mounting or mounting_of(robot.transforms, robot.base, frame, self.name)
+                yield _record(message, robot.odometry, mountings[frame], frame)
+
+    def _choose(self, bag: BagFile, kind: str, named: str | None, option: str) -> str | None:
+        """Return the topic of a type: the one that was named, or the only one, or None if there is none."""
+        if named is not None:
+            types = [topic.type for topic in bag.topics if topic.name == named]
+            if types != [kind]:
+                fault = f"has the type {', '.join(types)}, not {kind}" if types else "is not in the recording"
+                raise RecordingError(f"{self.name}: topic {named} {fault}; its topics are: {_listed(bag.topics)}")
+            return named
+        found = bag.of_type(kind)
+        if len(found) > 1:
+            raise RecordingError(f"{self.name}: several topics of type {kind}: {', '.join(found)}; choose one with {option} {found[0]}")
+        return found[0] if found else None
+
+    def _robot(self, bag: BagFile) -> _Robot:
+        """Read the transforms and the odometry."""
+        from_tf = self._odom_topic is not None and self._odom_topic in bag.of_type(*TRANSFORM_TYPES)
+        topic = None if from_tf else self._choose(bag, ODOMETRY_TYPE, self._odom_topic, "--odom-topic")
+        error_topics = [name for name in bag.of_type(ERROR_TYPE) if name == ERROR_TOPIC]
+        wanted = {*bag.of_type(*TRANSFORM_TYPES), *error_topics, *([topic] if topic else [])}
+        transforms = TransformBuffer()
+        samples: dict[int, Odometry] = {}
+        errors: dict[int, tuple[float, float]] = {}
+        base = ""
+        for name, message in bag.messages(wanted):
+            if name == topic:
+                self._take_odometry(samples, message)
+                base = base or frame_name(message.child_frame_id)
+            elif name == ERROR_TOPIC:
+                errors[stamp_of(message)] = (message.vector.x, message.vector.z)
+            else:
+                take_transforms(transforms, message)
+        if topic is None:
+            return _Robot(transforms, *odometry_from_tf(transforms, self.name))
+        for stamp, (error_m, error_rad) in errors.items():
+            if stamp in samples:
+                samples[stamp] = replace(samples[stamp], error_m=error_m, error_rad=error_rad)
+        return _Robot(transforms, OdometryBuffer(samples.items()), _base_frame(base, transforms))
+
+    def _take_odometry(self, samples: dict[int, Odometry], message: Any) -> None:
+        odometry = odometry_of(message)
+        if odometry.valid:
+            samples[stamp_of(message)] = odometry
+        else:
+            self.repaired["odometry message that is not finite: left out"] += 1
+
+
+def _base_frame(child: str, transforms: TransformBuffer) -> str:
+    """Return the robot's frame: the one the odometry names, else the usual name that tf knows."""
+    known = [frame for frame in BASE_FRAMES if frame in transforms.frames]
+    return child or (known[0] if known else BASE_FRAMES[0])
+
+
+def _record(message: Any, odometry: OdometryBuffer, mounting: Mounting, frame: str) -> Record:
+    stamp = stamp_of(message)
+    names = ("ranges", "angle_min", "angle_increment", "range_min", "range_max", "time_increment")
+    scan = {name: getattr(message, name) for name in names}
+    return Record(stamp, odometry.at(stamp), {**scan, "mounting": mounting, "frame_id": frame})
+
+
+def _listed(topics: list[Topic]) -> str:
+    return ", ".join(f"{topic.name} ({topic.type}, {topic.count})" for topic in topics) or "none"

@@ -1,0 +1,253 @@
+"""`simulate`: a recording with exact truth, whose errors keep within known bounds.
+
+Every promise of the guarantee can be tested on it: at the true pose at most the given number of beams is bad, by the exact definition of a
+good beam, and each recorded odometry step encloses the true motion.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from ial.datasets.in_memory import InMemoryRecording
+from ial.datasets.motion import Motion, MotionBounds
+from ial.datasets.odometry import Odometry
+from ial.datasets.recording import Reading
+from ial.datasets.scan import LaserScan, Mounting
+from ial.datasets.trajectory import Trajectory
+from ial.errors import ConfigError
+from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.maps.ray_casting import cast_rays
+from ial.pose import Pose
+
+_DEPTHS_M = (1e-7, 1e-5, 1e-3)  # how far behind the edge of a cell a beam ends, so that rounding cannot take it out again
+_MARGIN_M = 1e-10
+_INSIDE = 1.0 - 1e-9  # errors keep off their bound by this factor, which covers the rounding of the simulator itself
+
+FloatArray = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Lidar:
+    """A planar lidar.
+
+    Parameters
+    ----------
+    beams
+        Number of beams.
+    angle_min, angle_increment
+        Bearing of the first beam and step, radians.
+    range_min, range_max
+        Limits, metres.
+    mounting
+        Where it sits on the robot.
+    """
+
+    beams: int = 181
+    angle_min: float = -0.5 * math.pi
+    angle_increment: float = math.pi / 180.0
+    range_min: float = 0.05
+    range_max: float = 30.0
+    mounting: Mounting = field(default_factory=Mounting)
+
+
+@dataclass(frozen=True)
+class SensorErrors:
+    """What is wrong with the readings.
+
+    Parameters
+    ----------
+    range_error_m, bearing_error_rad
+        Bounds of a good beam's errors, which are uniform within them.
+    outliers
+        At most so many beams of each scan are replaced: by shorter, longer or random readings, or by none.
+    adversarial
+        Errors are as large as their bounds allow, and the number of replaced beams is exactly `outliers`.
+
+    Raises
+    ------
+    ConfigError
+        If a bound is negative or not finite.
+    """
+
+    range_error_m: float = 0.02
+    bearing_error_rad: float = 0.002
+    outliers: int = 0
+    adversarial: bool = False
+
+    def __post_init__(self) -> None:
+        for name in ("range_error_m", "bearing_error_rad", "outliers"):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and value >= 0):
+                raise ConfigError(f"{name} is {value}; give a finite number that is not negative")
+
+
+@dataclass(frozen=True, eq=False)
+class Simulation:
+    """A simulated run.
+
+    Parameters
+    ----------
+    recording
+        What the robot recorded.
+    truth
+        Where it was: ``T_map_base`` at each scan's stamp.
+    """
+
+    recording: InMemoryRecording
+    truth: Trajectory
+
+
+def simulate(
+    grid: OccupancyGrid,
+    path: Sequence[Pose],
+    lidar: Lidar,
+    errors: SensorErrors,
+    bounds: MotionBounds,
+    seed: int,
+    period_s: float = 0.1,
+    start_s: float = 1.0,
+) -> Simulation:
+    """Drive along a path and record scans and odometry.
+
+    Parameters
+    ----------
+    grid
+        The map.
+    path
+        The true poses ``T_map_base``, one for each scan, in free cells; see `random_walk`.
+    lidar
+        The sensor.
+    errors
+        What is wrong with its readings.
+    bounds
+        How far a recorded odometry step may be from the truth.
+    seed
+        The same seed gives the same bits.
+    period_s, start_s
+        Time between scans, and of the first.
+
+    Raises
+    ------
+    ConfigError
+        If a pose of the path is not in a free cell, or the motion bounds are smaller than what rounding does to a pose.
+    """
+    random = np.random.default_rng(seed)
+    readings = []
+    odometry = Odometry.of(Pose(0.0, 0.0, float(random.uniform(-math.pi, math.pi))))
+    for index, pose in enumerate(path):
+        _check_free(grid, pose, index)
+        if index:
+            odometry = _drive(odometry, path[index - 1], pose, bounds, errors.adversarial, random)
+        stamp = round(1e9 * (start_s + index * period_s))
+        readings.append(Reading(index, stamp, odometry, _scan(grid, pose, lidar, errors, stamp, random)))
+    recording = InMemoryRecording("simulation", readings)
+    return Simulation(recording, Trajectory.of((reading.stamp_ns, pose) for reading, pose in zip(readings, path, strict=True)))
+
+
+def _check_free(grid: OccupancyGrid, pose: Pose, index: int) -> None:
+    at = grid.origin.inverse() @ pose
+    row, column = math.floor(at.y / grid.resolution), math.floor(at.x / grid.resolution)
+    if not (0 <= row < grid.rows and 0 <= column < grid.columns) or grid.cells[row, column] != FREE:
+        raise ConfigError(f"pose {index} of the path, ({pose.x:.3f}, {pose.y:.3f}), is not in a free cell of the map; move it")
+
+
+def _error(random: np.random.Generator, size: int, bound: float, adversarial: bool) -> FloatArray:
+    """Return errors within ±bound: uniform, or at the bound."""
+    drawn = random.choice([-1.0, 1.0], size) if adversarial else random.uniform(-1.0, 1.0, size)
+    return drawn * (bound * _INSIDE)
+
+
+def _drive(before: Odometry, start: Pose, end: Pose, bounds: MotionBounds, adversarial: bool, random: np.random.Generator) -> Odometry:
+    """Return odometry whose step, enclosed by the bounds, holds the true motion."""
+    truth = Motion.between(Odometry.of(start), Odometry.of(end))
+    delta = start.inverse() @ end
+    room = bounds.enclose(delta)
+    error = _error(random, 3, 1.0, adversarial) * (0.5 * (room.upper - room.lower))
+    for share in (1.0, 0.95, 0.9, 0.8, 0.6, 0.3, 0.0):  # the bound belongs to the recorded step, which may be shorter than the true one
+        dx, dy, turn = (share * error).tolist()
+        recorded = Odometry.of(before.pose @ Pose(delta.x + dx, delta.y + dy, delta.theta + turn))
+        if _within(truth, bounds.enclose(Motion.between(before, recorded))):
+            return recorded
+    raise ConfigError("the motion bounds are smaller than the rounding errors of a pose; give at least 1e-9 for both bases")
+
+
+def _within(inner: Motion, outer: Motion) -> bool:
+    ends = (inner.lower, inner.upper)
+    return all(outer.contains(Pose(*end.tolist())) for end in ends)
+
+
+def _scan(grid: OccupancyGrid, pose: Pose, lidar: Lidar, errors: SensorErrors, stamp_ns: int, random: np.random.Generator) -> LaserScan:
+    blank = np.full(lidar.beams, np.inf, dtype=np.float32)
+    mounting = lidar.mounting
+    limits = (lidar.angle_min, lidar.angle_increment, lidar.range_min, lidar.range_max)
+    lower, upper = LaserScan(stamp_ns, blank, *limits, mounting=mounting).bearings()
+    laser = grid.origin.inverse() @ pose @ mounting.pose
+    bearings = 0.5 * (lower + upper) + _error(random, lidar.beams, errors.bearing_error_rad, errors.adversarial)
+    distances = _distances(grid, laser, laser.theta + bearings)
+    noise = _error(random, lidar.beams, errors.range_error_m, errors.adversarial)
+    ranges = _rounded_within(distances, noise, errors.range_error_m)
+    beyond = ranges >= np.float32(lidar.range_max)
+    ranges[beyond] = np.inf
+    _spoil(ranges, lidar, errors, random)
+    return LaserScan(stamp_ns, ranges, *limits, mounting=mounting)
+
+
+def _distances(grid: OccupancyGrid, laser: Pose, angles: FloatArray) -> FloatArray:
+    """Return distances at which a beam ends well inside an occupied cell just behind its edge; inf where it meets none.
+
+    Where a beam only grazes a corner, there is no such point, and it gets no return.
+    """
+    mask = grid.mask(OCCUPIED)
+    edges = cast_rays(mask, grid.resolution, laser.x, laser.y, angles)
+    found = np.full(len(angles), np.inf)
+    for depth in _DEPTHS_M:
+        reach = np.where(np.isfinite(found) | ~np.isfinite(edges), 0.0, edges + depth)
+        x, y = laser.x + reach * np.cos(angles), laser.y + reach * np.sin(angles)
+        inside = np.isinf(found) & np.isfinite(edges)
+        for dx in (-_MARGIN_M, _MARGIN_M):
+            for dy in (-_MARGIN_M, _MARGIN_M):
+                inside &= _occupied(mask, (x + dx) / grid.resolution, (y + dy) / grid.resolution)
+        found[inside] = reach[inside]
+    return found
+
+
+def _occupied(mask: npt.NDArray[np.bool_], u: FloatArray, v: FloatArray) -> npt.NDArray[np.bool_]:
+    """Return which points, in cells, lie in an occupied cell."""
+    column, row = np.floor(u).astype(np.int64), np.floor(v).astype(np.int64)
+    within = (row >= 0) & (row < mask.shape[0]) & (column >= 0) & (column < mask.shape[1])
+    occupied = np.zeros(len(u), dtype=np.bool_)
+    occupied[within] = mask[row[within], column[within]]
+    return occupied
+
+
+def _rounded_within(distances: FloatArray, noise: FloatArray, bound: float) -> npt.NDArray[np.float32]:
+    """Return distance + noise as float32, moved towards the distance where rounding would leave the bound."""
+    ranges = (distances + noise).astype(np.float32)
+    finite = np.isfinite(distances)
+    outside = np.zeros(len(distances), dtype=np.bool_)
+    outside[finite] = np.abs(ranges[finite] - distances[finite]) > bound
+    towards = np.nextafter(ranges[outside], distances[outside].astype(np.float32))
+    ranges[outside] = towards
+    return ranges
+
+
+def _spoil(ranges: npt.NDArray[np.float32], lidar: Lidar, errors: SensorErrors, random: np.random.Generator) -> None:
+    """Replace some readings by what a scan may hold in their place."""
+    most = min(errors.outliers, len(ranges))
+    count = most if errors.adversarial else int(random.integers(0, most + 1))
+    for beam in random.choice(len(ranges), count, replace=False):
+        reading = float(min(ranges[beam], lidar.range_max))
+        low, high = lidar.range_min, lidar.range_max
+        kind = random.integers(4)
+        if kind == 0:
+            replacement = random.uniform(min(low, reading), reading)
+        elif kind == 1:
+            replacement = random.uniform(reading, high)
+        elif kind == 2:
+            replacement = random.uniform(low, high)
+        else:
+            replacement = np.inf
+        ranges[beam] = replacement

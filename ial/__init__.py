@@ -1,0 +1,47 @@
+"""Guaranteed robot localization with interval analysis.
+
+``import ial`` costs almost nothing: the rooms of the house (`ial.contractors`, `ial.maps`, `ial.datasets`, `ial.lidar`, …) and the names
+below are loaded when they are first used.
+"""
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ial import contractors as contractors
+    from ial import datasets as datasets
+    from ial import lidar as lidar
+    from ial import maps as maps
+    from ial import particles as particles
+    from ial import results as results
+    from ial.errors import ConfigError as ConfigError
+    from ial.errors import IalError as IalError
+    from ial.errors import MapError as MapError
+    from ial.errors import OutputError as OutputError
+    from ial.errors import RecordingError as RecordingError
+    from ial.errors import RoundingModeError as RoundingModeError
+    from ial.errors import TrajectoryError as TrajectoryError
+    from ial.pose import Pose as Pose
+else:
+    from ial.lazy import lazy as _lazy
+
+    __getattr__, __dir__, __all__ = _lazy(
+        __name__,
+        {
+            "contractors": (),
+            "datasets": (),
+            "lidar": (),
+            "maps": (),
+            "particles": (),
+            "results": (),
+            "errors": (
+                "ConfigError",
+                "IalError",
+                "MapError",
+                "OutputError",
+                "RecordingError",
+                "RoundingModeError",
+                "TrajectoryError",
+            ),
+            "pose": ("Pose",),
+        },
+    )

@@ -1,0 +1,29 @@
+"""The one family of errors. A message says what was found, where, and what to do about it."""
+
+
+class IalError(Exception):
+    """Any error that ial raises on purpose."""
+
+
+class ConfigError(IalError):
+    """A configuration that cannot be used: an unknown key, a negative bound, a value that is not finite."""
+
+
+class MapError(IalError):
+    """A map that cannot be read or cannot serve for localization."""
+
+
+class RecordingError(IalError):
+    """A recording that cannot be read or holds nothing to localize with."""
+
+
+class TrajectoryError(IalError):
+    """A trajectory file that cannot be read."""
+
+
+class OutputError(IalError):
+    """A result that cannot be written."""
+
+
+class RoundingModeError(IalError):
+    """The processor does not round to nearest, or flushes subnormal numbers to zero: no bound could be trusted."""

@@ -1,0 +1,127 @@
+"""`LocalizerConfig`: all that the localizer assumes and all that it aims at, in one plain record."""
+
+import math
+from dataclasses import dataclass, field
+from typing import Literal
+
+from ial.datasets.motion import MotionBounds
+from ial.errors import ConfigError
+
+Domain = Literal["free", "free_or_unknown"]
+Recovery = Literal["union", "restart"]
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """How wrong the data may be. The guarantee holds while they hold.
+
+    Parameters
+    ----------
+    range_error_m
+        A reading of a good beam is wrong by at most this much.
+    bearing_error_rad
+        So is its bearing.
+    map_error_m
+        The obstacle that a good beam hits lies within this distance of an occupied cell.
+    motion
+        Error of the odometry between two scans.
+    """
+
+    range_error_m: float = 0.05
+    bearing_error_rad: float = 0.0
+    map_error_m: float = 0.05
+    motion: MotionBounds = field(default_factory=MotionBounds)
+
+    def __post_init__(self) -> None:
+        for name in ("range_error_m", "bearing_error_rad", "map_error_m"):
+            _check(name, getattr(self, name))
+
+
+@dataclass(frozen=True)
+class Precision:
+    """The size below which a box is no longer bisected.
+
+    Parameters
+    ----------
+    position_m
+        Width along x and y.
+    heading_rad
+        Width of the heading; the circle is divided into a power of two of equal parts of at most this width.
+    """
+
+    position_m: float = 0.1
+    heading_rad: float = 0.025
+
+    def __post_init__(self) -> None:
+        _check("precision.position_m", self.position_m, positive=True)
+        _check("precision.heading_rad", self.heading_rad, positive=True)
+
+
+@dataclass(frozen=True)
+class LocalizedSize:
+    """The half-widths up to which a single hypothesis counts as `localized`."""
+
+    position_m: float = 0.5
+    heading_rad: float = math.radians(15.0)
+
+    def __post_init__(self) -> None:
+        _check("localized_size.position_m", self.position_m, positive=True)
+        _check("localized_size.heading_rad", self.heading_rad, positive=True)
+
+
+@dataclass(frozen=True)
+class LocalizerConfig:
+    """The configuration of a localizer.
+
+    Parameters
+    ----------
+    bounds
+        How wrong the data may be.
+    outliers
+        How many of the used beams may be bad: a whole number, or a fraction of them.
+    precision
+        How fine the answer shall be.
+    max_boxes
+        A search with more boxes than this ends with a coarser answer, which is marked.
+    max_beams
+        How many beams of a scan are used at most.
+    domain
+        Where the robot's base may be: in free cells, or in free and unknown ones.
+    localized_size
+        What counts as localized.
+    recovery
+        What follows a scan that fits nowhere in the prediction: `union` carries the prediction on beside the poses found on the whole map,
+        and keeps the truth whichever of the last motion and the last scan broke its bound; `restart` (the paper's) trusts the scan alone.
+    max_seconds
+        A limit on the time of one search; None for none. A search that reaches it is coarser, marked, and not reproducible.
+    """
+
+    bounds: Bounds = field(default_factory=Bounds)
+    outliers: int | float = 0.2
+    precision: Precision = field(default_factory=Precision)
+    max_boxes: int = 4_000_000
+    max_beams: int = 180
+    domain: Domain = "free"
+    localized_size: LocalizedSize = field(default_factory=LocalizedSize)
+    recovery: Recovery = "union"
+    max_seconds: float | None = None
+
+    def __post_init__(self) -> None:
+        if isinstance(self.outliers, bool) or not (
+            (isinstance(self.outliers, int) and self.outliers >= 0) or (isinstance(self.outliers, float) and 0.0 <= self.outliers <= 1.0)
+        ):
+            raise ConfigError(f"outliers is {self.outliers!r}; give a whole number of beams, or a fraction from 0.0 to 1.0")
+        for name in ("max_boxes", "max_beams"):
+            if getattr(self, name) < 1:
+                raise ConfigError(f"{name} is {getattr(self, name)!r}; give at least 1")
+        if self.domain not in ("free", "free_or_unknown"):
+            raise ConfigError(f"domain is {self.domain!r}; give 'free' or 'free_or_unknown'")
+        if self.recovery not in ("union", "restart"):
+            raise ConfigError(f"recovery is {self.recovery!r}; give 'union' or 'restart'")
+        if self.max_seconds is not None:
+            _check("max_seconds", self.max_seconds, positive=True)
+
+
+def _check(name: str, value: float, *, positive: bool = False) -> None:
+    if not math.isfinite(value) or value < 0.0 or (positive and value == 0.0):
+        raise ConfigError(f"{name} is {value!r}; give a finite number {'above' if positive else 'of at least'} 0")

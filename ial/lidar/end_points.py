@@ -1,0 +1,87 @@
+"""Where the beams of a scan can end, seen from a robot whose heading lies in an interval."""
+
+import math
+
+import numpy as np
+
+from ial.contractors.elementary import sincos
+from ial.contractors.kernels import kernel
+
+MARGIN = 2.0**-28
+"""Cells by which every relative end-point bound is widened.
+
+It covers the rounding of what follows: dividing by the resolution, adding the position of the robot, and comparing with cell boundaries.
+Coordinates stay below 2¹⁹ cells, so each of these operations is off by at most 2⁻³⁴ cells. At 5 cm the margin is 0.2 nanometres.
+"""
+
+NEAR = 2.0**16 + 2.0
+"""Cells from the corner of the map within which a robot may be; maps have at most 2¹⁶ cells a side."""
+
+REACH = 2.0 * NEAR
+"""Cells from the robot beyond which an end point is drawn in: from everywhere near it is outside the map either way."""
+
+
+@kernel
+def _turned(px, py, s0, c0, s1, c1):  # type: ignore[no-untyped-def]
+    """Return bounds of both coordinates of R(θ)·p for θ in [θ0, θ1], narrower than π, from the sines and cosines of its ends.
+
+    x = px cos θ − py sin θ and y = px sin θ + py cos θ satisfy x' = −y and y' = x. So x has an inner maximum exactly where y passes zero
+    upwards, and so on; elsewhere the bounds are reached at the ends. The slack covers eight roundings of terms of this size.
+    """
+    slack = (abs(px) + abs(py)) * 2.0**-48
+    x0 = px * c0 - py * s0
+    y0 = px * s0 + py * c0
+    x1 = px * c1 - py * s1
+    y1 = px * s1 + py * c1
+    xl = min(x0, x1) - slack
+    xu = max(x0, x1) + slack
+    yl = min(y0, y1) - slack
+    yu = max(y0, y1) + slack
+    if min(abs(x0), abs(x1)) <= slack or min(abs(y0), abs(y1)) <= slack or x0 * x1 < 0.0 or y0 * y1 < 0.0:
+        radius = math.sqrt(px * px + py * py) + slack
+        if y0 <= slack and y1 >= -slack:
+            xu = radius
+        if y0 >= -slack and y1 <= slack:
+            xl = -radius
+        if x0 >= -slack and x1 <= slack:
+            yu = radius
+        if x0 <= slack and x1 >= -slack:
+            yl = -radius
+    return xl, xu, yl, yu
+
+
+@kernel
+def _drawn_in(cells):  # type: ignore[no-untyped-def]
+    return min(max(cells, -REACH), REACH)
+
+
+@kernel
+def relative_bounds(theta_lower, theta_upper, ends, directions, errors, map_error, resolution, out):  # type: ignore[no-untyped-def]
+    """Fill `out` with the bounds of each end point relative to the robot, in cells: x lower, y lower, x upper, y upper; shape (n, 4).
+
+    The distance that the map may be wrong is included.
+    """
+    whole = theta_upper - theta_lower >= 3.0
+    s0, c0 = sincos(theta_lower)
+    s1, c1 = sincos(theta_upper)
+    for i in range(len(ends)):
+        px, py = ends[i, 0], ends[i, 1]
+        along, across = errors[i, 0], errors[i, 1]
+        if whole:
+            radius = math.sqrt(px * px + py * py) * (1.0 + 2.0**-48) + along + across
+            xl, xu, yl, yu = -radius, radius, -radius, radius
+        else:
+            xl, xu, yl, yu = _turned(px, py, s0, c0, s1, c1)
+            dxl, dxu, dyl, dyu = _turned(directions[i, 0], directions[i, 1], s0, c0, s1, c1)
+            most_x = max(abs(dxl), abs(dxu))
+            most_y = max(abs(dyl), abs(dyu))
+            wide_x = along * most_x + across * most_y
+            wide_y = along * most_y + across * most_x
+            xl -= wide_x
+            xu += wide_x
+            yl -= wide_y
+            yu += wide_y
+        out[i, 0] = _drawn_in((xl - map_error) / resolution) - MARGIN
+        out[i, 1] = _drawn_in((yl - map_error) / resolution) - MARGIN
+        out[i, 2] = _drawn_in((xu + map_error) / resolution) + MARGIN
+        out[i, 3] = _drawn_in((yu + map_error) / resolution) + MARGIN

@@ -1,0 +1,143 @@
+"""`Estimate`: what one scan leaves of the possible poses, and how to say it."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from ial.contractors.boxes import Boxes
+from ial.contractors.clusters import cluster
+from ial.contractors.paver import Limit
+from ial.lidar.config import LocalizedSize
+from ial.lidar.pose_set import PoseSet
+from ial.maps.occupancy_grid import OccupancyGrid
+from ial.pose import Pose, wrap
+
+Status = Literal["localized", "ambiguous", "symmetric", "lost", "blind"]
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """One connected set of possible poses, by its hull in the map frame.
+
+    Parameters
+    ----------
+    x, y
+        Bounds of the position (m), rounded outward.
+    theta
+        Bounds of the heading (rad); the upper one exceeds π where the arc crosses the cut. The full circle is [-π, π], rounded outward.
+    boxes
+        Of how many boxes the set consists.
+    volume
+        Sum of the volumes of the boxes (m² rad); a measure, not a bound.
+    prediction
+        Whether it comes only from a prediction that a scan has rejected.
+    """
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+    theta: tuple[float, float]
+    boxes: int
+    volume: float
+    prediction: bool = False
+
+    @property
+    def half_widths(self) -> tuple[float, float]:
+        """Half the larger width of the position (m), and half the width of the heading (rad)."""
+        return 0.5 * max(self.x[1] - self.x[0], self.y[1] - self.y[0]), 0.5 * (self.theta[1] - self.theta[0])
+
+    @property
+    def centre(self) -> Pose:
+        """The middle of the hull."""
+        return Pose(0.5 * (self.x[0] + self.x[1]), 0.5 * (self.y[0] + self.y[1]), wrap(0.5 * (self.theta[0] + self.theta[1])))
+
+
+@dataclass(frozen=True, eq=False)
+class Estimate:
+    """All poses that the data up to a scan allow.
+
+    Parameters
+    ----------
+    stamp_ns
+        Time of the scan, nanoseconds.
+    status
+        `localized`: one hypothesis, not larger than the configured size. `lost`: this scan fitted nowhere in the prediction and was searched
+        over the whole map. `blind`: it fitted nowhere at all. `ambiguous`: everything else.
+    hypotheses
+        The connected sets of poses, the largest volume first.
+    pose
+        The middle of the only hypothesis while `localized`, in the map frame; else None.
+    poses
+        The set itself, in the grid's frame.
+    beams
+        How many beams were used.
+    outliers_allowed
+        q: how many of them may be bad.
+    uninformative
+        Whether the scan could exclude nothing: no usable beams, or as many allowed outliers.
+    limited
+        Which limit made the answer coarser than asked for: "", "boxes" or "time".
+    elapsed_s
+        How long it took.
+    """
+
+    stamp_ns: int
+    status: Status
+    hypotheses: tuple[Hypothesis, ...]
+    pose: Pose | None
+    poses: PoseSet
+    beams: int
+    outliers_allowed: int
+    uninformative: bool
+    limited: Limit
+    elapsed_s: float
+
+
+def find_hypotheses(poses: PoseSet, grid: OccupancyGrid) -> tuple[Hypothesis, ...]:
+    """Return the connected components of a set of poses, the largest volume first, in the map frame."""
+    clusters = cluster(poses.boxes)
+    in_map = grid.boxes_to_map(poses.boxes)
+    volumes = np.maximum(poses.boxes.width(), 0.0).prod(axis=1)
+    order = np.argsort(clusters.labels, kind="stable")
+    edges = np.searchsorted(clusters.labels[order], np.arange(len(clusters) + 1))
+    theta = grid.boxes_to_map(clusters.hulls)
+    found = []
+    for label, (start, stop) in enumerate(zip(edges[:-1], edges[1:], strict=True)):
+        rows = order[start:stop]
+        hull = Boxes(in_map.lower[rows], in_map.upper[rows]).hull()
+        found.append(
+            Hypothesis(
+                x=(float(hull.lower[0, 0]), float(hull.upper[0, 0])),
+                y=(float(hull.lower[0, 1]), float(hull.upper[0, 1])),
+                theta=(float(theta.lower[label, 2]), float(theta.upper[label, 2])),
+                boxes=len(rows),
+                volume=float(volumes[rows].sum()),
+                prediction=bool(poses.carried[rows].all()),
+            )
+        )
+    return tuple(sorted(found, key=lambda each: -each.volume))
+
+
+def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: bool, found: bool) -> Status:
+    """Return the status word for a set of hypotheses.
+
+    Parameters
+    ----------
+    hypotheses
+        What is left.
+    size
+        The half-widths up to which a single hypothesis counts as localized.
+    rejected
+        Whether the scan fitted nowhere in the prediction.
+    found
+        Whether it fitted anywhere.
+    """
+    if rejected:
+        return "lost" if found else "blind"
+    if len(hypotheses) == 1:
+        position, heading = hypotheses[0].half_widths
+        if position <= size.position_m and heading <= size.heading_rad:
+            return "localized"
+    return "ambiguous"
+
+

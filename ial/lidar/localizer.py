@@ -1,0 +1,123 @@
+"""`Localizer`: the set-membership localizer, scan by scan."""
+
+import dataclasses
+import time
+
+from ial.contractors.boxes import Boxes
+from ial.datasets.motion import Motion
+from ial.datasets.scan import LaserScan
+from ial.lidar.beams import Beams, select_beams
+from ial.lidar.config import Bounds, LocalizerConfig
+from ial.lidar.estimate import Estimate, find_hypotheses, judge
+from ial.lidar.model import LidarModel
+from ial.lidar.pose_set import PoseSet
+from ial.maps.occupancy_grid import OccupancyGrid
+from ial.membership import SetMembershipFilter
+
+
+class Localizer:
+    """Finds all poses of a robot in a map that its scans and its odometry allow.
+
+    If at most q of the used beams are bad at the true pose, every motion is within its interval, and the domain holds the pose, then the
+    pose is in the returned set. Several localizers may be used from several threads; one localizer belongs to one thread at a time.
+
+    Parameters
+    ----------
+    grid
+        The map.
+    bounds
+        How wrong the data may be; overrides that of `config`.
+    outliers
+        How many beams may be bad, a whole number or a fraction; overrides that of `config`.
+    config
+        Everything else.
+    initial
+        Boxes (x, y, θ) in the map frame in which the search starts; the whole map by default.
+
+    Raises
+    ------
+    MapError
+        If the map cannot serve for localization.
+    ConfigError
+        If the start lies outside the domain.
+
+    Examples
+    --------
+    >>> from ial.datasets.sample import sample_grid, sample_recording
+    >>> from ial.datasets.recording import steps
+    >>> localizer = Localizer(sample_grid())
+    >>> for step in steps(sample_recording(), localizer.config.bounds.motion):
+    ...     estimate = localizer.update(step.motion, step.scan)
+    >>> estimate.status, len(estimate.hypotheses)
+    ('localized', 1)
+    """
+
+    def __init__(
+        self,
+        grid: OccupancyGrid,
+        bounds: Bounds | None = None,
+        outliers: int | float | None = None,
+        config: LocalizerConfig | None = None,
+        initial: Boxes | None = None,
+    ) -> None:
+        config = config or LocalizerConfig()
+        if bounds is not None:
+            config = dataclasses.replace(config, bounds=bounds)
+        if outliers is not None:
+            config = dataclasses.replace(config, outliers=outliers)
+        self.config = config
+        self.grid = grid
+        self.model = LidarModel(grid, config)
+        self._start = self.model.universe() if initial is None else self.model.within(initial)
+        self.reset()
+
+    def reset(self) -> None:
+        """Forget everything but the start."""
+        self._filter = SetMembershipFilter(self.model, self.model.recover, self._start)
+
+    @property
+    def poses(self) -> PoseSet:
+        """The present set of poses, in the grid's frame."""
+        return self._filter.states
+
+    def locate(self, scan: LaserScan) -> Estimate:
+        """Return the static answer: all poses that one scan alone allows. What was learned from other scans is neither used nor changed."""
+        return self._estimate(SetMembershipFilter(self.model, self.model.recover, self._start), None, scan)
+
+    def update(self, motion: Motion | None, scan: LaserScan) -> Estimate:
+        """Take the motion since the last scan and a scan; return all poses that everything so far allows.
+
+        Parameters
+        ----------
+        motion
+            All motions that the odometry allows since the last scan; None before the first one.
+        scan
+            The scan.
+        """
+        return self._estimate(self._filter, motion, scan)
+
+    def _estimate(
+        self, tracker: SetMembershipFilter[PoseSet, Motion | None, Beams], motion: Motion | None, scan: LaserScan
+    ) -> Estimate:
+        begun = time.perf_counter()
+        beams = select_beams(scan, self.config.bounds, self.config.outliers, self.config.max_beams)
+        rejection = tracker.update(motion, beams)
+        poses = tracker.states
+        hypotheses = find_hypotheses(poses, self.grid)
+        status = judge(
+            hypotheses, self.config.localized_size, rejected=rejection is not None, found=not bool(poses.carried.all())
+        )
+        pose = hypotheses[0].centre if status == "localized" else None
+        return Estimate(
+            stamp_ns=scan.stamp_ns,
+            status=status,
+            hypotheses=hypotheses,
+            pose=pose,
+            poses=poses,
+            beams=len(beams),
+            outliers_allowed=beams.outliers,
+            uninformative=not beams.informative,
+            limited=poses.limited,
+            elapsed_s=time.perf_counter() - begun,
+        )
+

@@ -1,0 +1,119 @@
+"""`LidarModel`: a robot with a planar lidar in an occupancy grid, as an instance of `ial.membership.Model`."""
+
+import numpy as np
+
+from ial.contractors.boxes import Boxes
+from ial.contractors.paver import pave
+from ial.datasets.motion import Motion
+from ial.errors import ConfigError
+from ial.lidar.beams import Beams
+from ial.lidar.config import LocalizerConfig
+from ial.lidar.lattice import Lattice
+from ial.lidar.pose_contractor import PoseContractor
+from ial.lidar.pose_set import PoseSet, unite
+from ial.lidar.prediction import move
+from ial.maps.cell_index import CellIndex
+from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid, check_usable
+from ial.membership import Model
+
+_LAID_OUT_CELLS = 1 << 17  # above, a set is laid out coarser, and refined by the scan
+
+
+class LidarModel(Model[PoseSet, Motion | None, Beams]):
+    """Sets of poses, moved by odometry and contracted by scans.
+
+    Parameters
+    ----------
+    grid
+        The map.
+    config
+        Bounds, precision and limits.
+
+    Raises
+    ------
+    MapError
+        If the map has no occupied cell, or none where the robot may be.
+    """
+
+    def __init__(self, grid: OccupancyGrid, config: LocalizerConfig) -> None:
+        allowed = (FREE,) if config.domain == "free" else (FREE, UNKNOWN)
+        check_usable(grid, allowed)
+        self.grid = grid
+        self.config = config
+        self.occupied = CellIndex(grid.mask(OCCUPIED), grid.resolution)
+        self.domain = CellIndex(grid.mask(*allowed), grid.resolution)
+        self.lattice = Lattice(config.precision.position_m, config.precision.heading_rad)
+
+    def universe(self) -> PoseSet:
+        """Return every pose in the map."""
+        return PoseSet(self.lattice.root(self.grid.width_m, self.grid.height_m))
+
+    def within(self, boxes: Boxes) -> PoseSet:
+        """Return the poses of the domain that lie in boxes (x, y, θ) of the map frame.
+
+        Raises
+        ------
+        ConfigError
+            If there are none.
+        """
+        cells = self._laid_out(self.grid.boxes_to_grid(boxes))
+        if not len(cells):
+            raise ConfigError("the initial region lies outside the free space of the map; check --initial, the origin of the map, and domain")
+        return PoseSet(cells)
+
+    def predict(self, states: PoseSet, motion: Motion | None) -> PoseSet:
+        """Return the moved poses that lie in the domain, laid out on the lattice; None is the motion before the first scan."""
+        if motion is None:
+            return states
+        confirmed, carried = (self._laid_out(move(states.boxes[rows], motion)) for rows in (~states.carried, states.carried))
+        return unite(PoseSet(confirmed), PoseSet(carried))
+
+    def _laid_out(self, boxes: Boxes) -> Boxes:
+        """Return the cells of the lattice that cover boxes, as far as they meet the domain."""
+        cells = self.lattice.cover(self._within_map(boxes), _LAID_OUT_CELLS)
+        return cells[self.domain.meet(Boxes(cells.lower[:, :2], cells.upper[:, :2]))]
+
+    def _within_map(self, boxes: Boxes) -> Boxes:
+        """Return the boxes cut to the extent of the map, which holds the domain; those outside are dropped."""
+        edge = np.array([self.grid.width_m, self.grid.height_m]) * (1.0 + 2.0**-40)
+        lower, upper = boxes.lower.copy(), boxes.upper.copy()
+        lower[:, :2] = np.maximum(lower[:, :2], 0.0)
+        upper[:, :2] = np.minimum(upper[:, :2], edge)
+        cut = Boxes(lower, upper)
+        return cut[~cut.empty]
+
+    def contract(self, states: PoseSet, reading: Beams) -> PoseSet:
+        """Return the poses that a scan allows. While both confirmed and carried poses survive, they stay apart."""
+        if not reading.informative:
+            return states
+        confirmed, carried = (self._paved(states.boxes[rows], reading) for rows in (~states.carried, states.carried))
+        if not len(confirmed):
+            return carried
+        if not len(carried):
+            return confirmed
+        return unite(confirmed, carried)
+
+    def _paved(self, boxes: Boxes, reading: Beams) -> PoseSet:
+        if not len(boxes):
+            return PoseSet(boxes)
+        contractor = PoseContractor(reading, self.occupied, self.domain, self.config.bounds.map_error_m)
+        limits = {"max_boxes": self.config.max_boxes, "max_seconds": self.config.max_seconds}
+        paving = pave(contractor, boxes, self.lattice.widths, **limits)
+        return PoseSet(paving.boxes, limited=paving.limited, nodes=paving.nodes)
+
+    def empty(self, states: PoseSet) -> bool:
+        """Return whether no pose is left."""
+        return not len(states)
+
+    def recover(self, states: PoseSet, motion: Motion | None, reading: Beams) -> PoseSet:
+        """Return what to go on with after a scan that fits nowhere in the prediction.
+
+        The scan is searched over the whole map. With the policy `union` the uncontracted prediction is carried on beside what is found, so
+        that the truth is kept whichever of the last motion and the last scan broke its bound; `restart` drops it. If nothing is found
+        anywhere, the prediction alone is carried on.
+        """
+        predicted = self.predict(states, motion)
+        found = PoseSet(Boxes.none(3)) if motion is None else self.contract(self.universe(), reading)
+        if len(found) and self.config.recovery == "restart":
+            return found
+        return unite(found, predicted)

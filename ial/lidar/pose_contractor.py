@@ -1,0 +1,37 @@
+"""The two constraints on a pose together: the robot stands in the domain, and the scan fits."""
+
+import numpy as np
+
+from ial.contractors.boxes import Boxes
+from ial.lidar.beams import Beams
+from ial.lidar.scan_contractor import ScanContractor
+from ial.maps.cell_index import CellIndex
+
+
+class PoseContractor:
+    """Poses (x, y, θ) in the grid's frame whose position lies in a cell of the domain, and from which at most q beams are bad.
+
+    Parameters
+    ----------
+    beams
+        The evidence of the scan.
+    occupied
+        The cells that beams may end at.
+    domain
+        The cells in which the robot's base may be.
+    map_error_m
+        How far the map may be wrong.
+    """
+
+    dimension = 3
+
+    def __init__(self, beams: Beams, occupied: CellIndex, domain: CellIndex, map_error_m: float) -> None:
+        self._scan = ScanContractor(beams, occupied, map_error_m)
+        self._domain = domain
+
+    def contract(self, boxes: Boxes) -> Boxes:
+        """Return the boxes, those emptied that hold no consistent pose."""
+        keep = self._domain.meet(Boxes(boxes.lower[:, :2], boxes.upper[:, :2]))
+        rows = np.flatnonzero(keep)
+        keep[rows] = self._scan.fits(boxes[rows])
+        return boxes.where(keep)

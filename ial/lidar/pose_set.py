@@ -1,0 +1,55 @@
+"""`PoseSet`: what the localizer knows, as boxes of poses in the grid's frame."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from ial.contractors.angle import contains_angle
+from ial.contractors.boxes import Boxes
+from ial.contractors.paver import Limit
+from ial.pose import Pose
+
+
+@dataclass(frozen=True, eq=False)
+class PoseSet:
+    """A set of poses (x, y, θ) of the robot's base.
+
+    Parameters
+    ----------
+    boxes
+        The set, in the grid's frame; n rows of 3.
+    carried
+        Which boxes are a prediction that was carried on although a scan rejected it, bool of shape (n,).
+    limited
+        Which limit stopped the last search early, "" if none.
+    nodes
+        How many boxes the last search contracted.
+    """
+
+    boxes: Boxes
+    carried: npt.NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
+    limited: Limit = ""
+    nodes: int = 0
+
+    def __post_init__(self) -> None:
+        if len(self.carried) != len(self.boxes):
+            object.__setattr__(self, "carried", np.zeros(len(self.boxes), dtype=np.bool_))
+
+    def __len__(self) -> int:
+        return len(self.boxes)
+
+    def contains(self, pose: Pose) -> bool:
+        """Return whether a pose, in the grid's frame, lies in one of the boxes; headings are taken modulo 2π."""
+        lower, upper = self.boxes.lower, self.boxes.upper
+        at = np.array([pose.x, pose.y])
+        rows = np.flatnonzero(((lower[:, :2] <= at) & (at <= upper[:, :2])).all(axis=1))
+        return any(contains_angle(lower[row, 2], upper[row, 2], pose.theta) for row in rows)
+
+
+def unite(confirmed: PoseSet, carried: PoseSet) -> PoseSet:
+    """Return the union of poses that a scan allows and poses that are only predicted."""
+    flags = np.concatenate([np.zeros(len(confirmed), dtype=np.bool_), np.ones(len(carried), dtype=np.bool_)])
+    return PoseSet(
+        Boxes.concatenate([confirmed.boxes, carried.boxes]), flags, confirmed.limited or carried.limited, confirmed.nodes + carried.nodes
+    )

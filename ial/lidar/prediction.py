@@ -1,0 +1,42 @@
+"""Boxes of poses, moved by an interval motion."""
+
+import numpy as np
+
+from ial.contractors.angle import wrap_angle
+from ial.contractors.arithmetic import add, mul, sub
+from ial.contractors.boxes import Boxes
+from ial.contractors.elementary import cos, sin
+from ial.contractors.kernels import kernel
+from ial.contractors.threads import run
+from ial.datasets.motion import Motion
+
+
+@kernel
+def _move(start, stop, lower, upper, motion_lower, motion_upper, moved_lower, moved_upper):  # type: ignore[no-untyped-def]
+    dxl, dyl, turn_l = motion_lower
+    dxu, dyu, turn_u = motion_upper
+    for row in range(start, stop):
+        cl, cu = cos(lower[row, 2], upper[row, 2])
+        sl, su = sin(lower[row, 2], upper[row, 2])
+        al, au = mul(cl, cu, dxl, dxu)
+        bl, bu = mul(sl, su, dyl, dyu)
+        al, au = sub(al, au, bl, bu)
+        moved_lower[row, 0], moved_upper[row, 0] = add(lower[row, 0], upper[row, 0], al, au)
+        al, au = mul(sl, su, dxl, dxu)
+        bl, bu = mul(cl, cu, dyl, dyu)
+        al, au = add(al, au, bl, bu)
+        moved_lower[row, 1], moved_upper[row, 1] = add(lower[row, 1], upper[row, 1], al, au)
+        tl, tu = add(lower[row, 2], upper[row, 2], turn_l, turn_u)
+        moved_lower[row, 2], moved_upper[row, 2] = wrap_angle(tl, tu)
+
+
+def move(boxes: Boxes, motion: Motion) -> Boxes:
+    """Return, for each box of poses (x, y, θ), a box around all poses that a motion can lead to from it.
+
+    ``x' = x + dx cos θ − dy sin θ, y' = y + dx sin θ + dy cos θ, θ' = θ + dθ``, in interval arithmetic.
+
+    Source: Guyonneau et al. 2014, eq. 3, with a sideways component, in the axes of REP-103.
+    """
+    lower, upper = np.empty_like(boxes.lower), np.empty_like(boxes.upper)
+    run(_move, len(boxes), boxes.lower, boxes.upper, tuple(motion.lower.tolist()), tuple(motion.upper.tolist()), lower, upper)
+    return Boxes(lower, upper)

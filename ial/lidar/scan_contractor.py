@@ -1,0 +1,99 @@
+"""The scan as a constraint on the pose: at most q of the used beams may fail to end at an occupied cell."""
+
+import numpy as np
+import numpy.typing as npt
+
+from ial.contractors.boxes import Boxes
+from ial.contractors.groups import group_rows
+from ial.contractors.kernels import kernel
+from ial.contractors.threads import run
+from ial.lidar.beams import Beams
+from ial.lidar.corners import OFFSET, corners
+from ial.lidar.end_points import NEAR, relative_bounds
+from ial.maps.cell_index import CellIndex
+
+
+@kernel
+def _fits(xl, yl, xu, yu, bounds, q, flat, row_limit, column_limit):  # type: ignore[no-untyped-def]
+    """Return whether at most q beams certainly miss every occupied cell from all of a box, whose bounds are given in cells.
+
+    A beam fails if the rectangle of its possible end points meets no occupied cell: four look-ups in the summed-area table.
+    """
+    beams = len(bounds)
+    stride = np.uint64(column_limit + 1)
+    failed = 0
+    for i in range(beams):
+        left, below, right, above = corners(bounds, i, xl, yl, xu, yu, column_limit, row_limit)
+        low = np.uint64(below) * stride
+        high = np.uint64(above) * stride
+        near = np.uint64(left)
+        far = np.uint64(right)
+        failed += flat[high + far] - flat[low + far] - flat[high + near] + flat[low + near] == 0
+        if failed > q:
+            return False
+        if i + 1 - failed >= beams - q:
+            return True
+    return True
+
+
+@kernel
+def _test(start, stop, order, lower, upper, ends, directions, errors, q, map_error, resolution, table, keep):  # type: ignore[no-untyped-def]
+    flat = table.reshape(-1)
+    row_limit = np.int32(table.shape[0] - 1)
+    column_limit = np.int32(table.shape[1] - 1)
+    bounds = np.empty((len(ends), 4))
+    theta_lower = np.nan
+    theta_upper = np.nan
+    for at in range(start, stop):
+        row = order[at]
+        if lower[row, 2] != theta_lower or upper[row, 2] != theta_upper:
+            theta_lower = lower[row, 2]
+            theta_upper = upper[row, 2]
+            relative_bounds(theta_lower, theta_upper, ends, directions, errors, map_error, resolution, bounds)
+        xl = lower[row, 0] / resolution
+        yl = lower[row, 1] / resolution
+        xu = upper[row, 0] / resolution
+        yu = upper[row, 1] / resolution
+        near = min(xl, yl) >= -NEAR and max(xu, yu) <= NEAR  # elsewhere the indices would not be right, so the box is kept
+        xl, yl = xl + OFFSET, yl + OFFSET
+        xu, yu = xu + (OFFSET + 1.0), yu + (OFFSET + 1.0)
+        keep[row] = not near or _fits(xl, yl, xu, yu, bounds, q, flat, row_limit, column_limit)
+
+
+class ScanContractor:
+    """Poses (x, y, θ) of the robot, in the grid's frame, from which at most q of the used beams are bad.
+
+    A beam is good at a pose if some point of its error region lies within `map_error_m` of a closed occupied cell. Boxes in which more than
+    q beams are bad everywhere are emptied; the others are returned as they are.
+
+    Parameters
+    ----------
+    beams
+        The evidence of the scan.
+    occupied
+        The occupied cells.
+    map_error_m
+        How far the map may be wrong.
+
+    Source: Guyonneau et al. 2014, section 3.2, eq. 6, as a test with relaxed intersection over all beams.
+    """
+
+    dimension = 3
+
+    def __init__(self, beams: Beams, occupied: CellIndex, map_error_m: float) -> None:
+        self.beams = beams
+        self.occupied = occupied
+        self.map_error_m = map_error_m
+
+    def fits(self, boxes: Boxes) -> npt.NDArray[np.bool_]:
+        """Return in which boxes a consistent pose cannot be excluded, shape (n,)."""
+        keep = np.empty(len(boxes), dtype=np.bool_)
+        order = group_rows(boxes.lower[:, 2], boxes.upper[:, 2])
+        beams = self.beams
+        evidence = (beams.ends, beams.directions, beams.errors, beams.outliers, self.map_error_m)
+        run(_test, len(boxes), order, boxes.lower, boxes.upper, *evidence, self.occupied.resolution, self.occupied.table, keep)
+        return keep
+
+    def contract(self, boxes: Boxes) -> Boxes:
+        """Return the boxes, those that hold no consistent pose emptied."""
+        return boxes.where(self.fits(boxes))

@@ -1,0 +1,55 @@
+"""Maps: occupancy grids, their files and messages, the index that contracts to their cells, and ray casting."""
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ial.maps.cell_index import CellContractor, CellIndex
+    from ial.maps.grid_message import grid_from_message, grid_to_message_fields, read_map_topic
+    from ial.maps.loading import load_map
+    from ial.maps.map_file import read_map, write_map
+    from ial.maps.map_warning import MapWarning
+    from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid, check_usable
+    from ial.maps.ray_casting import cast_rays
+
+__all__ = [
+    "FREE",
+    "OCCUPIED",
+    "UNKNOWN",
+    "CellContractor",
+    "CellIndex",
+    "MapWarning",
+    "OccupancyGrid",
+    "cast_rays",
+    "check_usable",
+    "grid_from_message",
+    "grid_to_message_fields",
+    "load_map",
+    "read_map",
+    "read_map_topic",
+    "write_map",
+]
+
+_FILES = {
+    "cell_index": ("CellContractor", "CellIndex"),
+    "grid_message": ("grid_from_message", "grid_to_message_fields", "read_map_topic"),
+    "loading": ("load_map",),
+    "map_file": ("read_map", "write_map"),
+    "map_warning": ("MapWarning",),
+    "occupancy_grid": ("FREE", "OCCUPIED", "UNKNOWN", "OccupancyGrid", "check_usable"),
+    "ray_casting": ("cast_rays",),
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import the file of a public name when the name is first used: `import ial.maps` itself costs nothing."""
+    for file, names in _FILES.items():
+        if name in names:
+            value = getattr(importlib.import_module(f"{__name__}.{file}"), name)
+            globals()[name] = value
+            return value
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return __all__

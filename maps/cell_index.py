@@ -1,0 +1,212 @@
+"""`CellIndex`: which rectangles meet a set of cells, answered in constant time; and the contractor to those cells.
+
+A summed-area table holds, for every corner of the grid, how many cells of the set lie to the left of it and below. Four look-ups give the
+number in any rectangle (Crow 1984). Rectangles are closed and in the grid frame, in metres; cells are closed squares, so a rectangle
+that only touches one meets it.
+"""
+
+import numpy as np
+import numpy.typing as npt
+
+from ial.contractors import threads
+from ial.contractors.arithmetic import mul
+from ial.contractors.boxes import Boxes
+from ial.contractors.kernels import kernel
+from ial.errors import MapError
+from ial.maps.occupancy_grid import check_resolution, check_size
+
+# Inside a grid of at most 2^16 cells a side, x·(1/r) is wrong by less than 2^16·2^-51 cells, and what adding the slack rounds off is
+# less than that: this much slack covers both. Cells as near as that to a rectangle (12 picometres at 5 cm) may count as met.
+SLACK = 2.0**-32
+
+
+@kernel
+def count(table, row0, row1, column0, column1):  # type: ignore[no-untyped-def]
+    """Return how many cells of the set lie in rows row0 … row1 − 1 and columns column0 … column1 − 1."""
+    return table[row1, column1] - table[row0, column1] - table[row1, column0] + table[row0, column0]
+
+
+@kernel
+def cells_met(inverse_resolution, lower, upper, cells):  # type: ignore[no-untyped-def]
+    """Return (first, stop): the closed interval meets the closed cells first … stop − 1 of those along one axis, and perhaps no others.
+
+    The range is clamped to 0 … cells, and first >= stop where the interval lies outside. Bounds may be infinite, not NaN.
+    """
+    first = np.ceil(lower * inverse_resolution - SLACK) - 1.0
+    stop = np.floor(upper * inverse_resolution + SLACK) + 1.0
+    return int(min(max(first, 0.0), cells)), int(max(min(stop, cells), 0.0))
+
+
+@kernel
+def meets(table, inverse_resolution, xl, xu, yl, yu):  # type: ignore[no-untyped-def]
+    """Return whether a rectangle meets a cell of the set; never False where it does. An empty rectangle meets nothing."""
+    if not (xl <= xu and yl <= yu):
+        return False
+    column0, column1 = cells_met(inverse_resolution, xl, xu, table.shape[1] - 1)
+    row0, row1 = cells_met(inverse_resolution, yl, yu, table.shape[0] - 1)
+    return column0 < column1 and row0 < row1 and count(table, row0, row1, column0, column1) > 0
+
+
+@kernel
+def edge_below(index, resolution):  # type: ignore[no-untyped-def]
+    """Return the largest double that is not above index·resolution."""
+    return mul(float(index), float(index), resolution, resolution)[0]
+
+
+@kernel
+def edge_above(index, resolution):  # type: ignore[no-untyped-def]
+    """Return the smallest double that is not below index·resolution."""
+    return mul(float(index), float(index), resolution, resolution)[1]
+
+
+@kernel
+def _trimmed(inverse_resolution, resolution, lower, upper, cells):  # type: ignore[no-untyped-def]
+    """Return `cells_met` without the outermost cells that the slack alone let in."""
+    first, stop = cells_met(inverse_resolution, lower, upper, cells)
+    if first < stop and edge_above(first + 1, resolution) < lower:
+        first += 1
+    if first < stop and edge_below(stop - 1, resolution) > upper:
+        stop -= 1
+    return first, stop
+
+
+@kernel
+def _columns_with_cells(table, row0, row1, column0, column1):  # type: ignore[no-untyped-def]
+    """Return the range from the first to behind the last column with a cell of the set; there must be one."""
+    low, high = column0, column1 - 1
+    while low < high:
+        middle = (low + high) // 2
+        if count(table, row0, row1, column0, middle + 1) > 0:
+            high = middle
+        else:
+            low = middle + 1
+    first = low
+    low, high = first, column1 - 1
+    while low < high:
+        middle = (low + high + 1) // 2
+        if count(table, row0, row1, middle, column1) > 0:
+            low = middle
+        else:
+            high = middle - 1
+    return first, low + 1
+
+
+@kernel
+def _rows_with_cells(table, row0, row1, column0, column1):  # type: ignore[no-untyped-def]
+    return _columns_with_cells(table.T, column0, column1, row0, row1)
+
+
+@kernel
+def contract(table, inverse_resolution, resolution, xl, xu, yl, yu):  # type: ignore[no-untyped-def]
+    """Return the hull (xl, xu, yl, yu) of the points of a rectangle that lie in a cell of the set: the tightest in doubles."""
+    if not (xl <= xu and yl <= yu):
+        return np.inf, -np.inf, np.inf, -np.inf
+    column0, column1 = _trimmed(inverse_resolution, resolution, xl, xu, table.shape[1] - 1)
+    row0, row1 = _trimmed(inverse_resolution, resolution, yl, yu, table.shape[0] - 1)
+    if column0 >= column1 or row0 >= row1 or count(table, row0, row1, column0, column1) <= 0:
+        return np.inf, -np.inf, np.inf, -np.inf
+    column0, column1 = _columns_with_cells(table, row0, row1, column0, column1)
+    row0, row1 = _rows_with_cells(table, row0, row1, column0, column1)
+    xl = max(xl, edge_below(column0, resolution))
+    xu = min(xu, edge_above(column1, resolution))
+    yl = max(yl, edge_below(row0, resolution))
+    yu = min(yu, edge_above(row1, resolution))
+    return xl, xu, yl, yu
+
+
+@kernel
+def _meet_rows(start, stop, table, inverse_resolution, lower, upper, found):  # type: ignore[no-untyped-def]
+    for i in range(start, stop):
+        found[i] = meets(table, inverse_resolution, lower[i, 0], upper[i, 0], lower[i, 1], upper[i, 1])
+
+
+@kernel
+def _contract_rows(start, stop, table, inverse_resolution, resolution, lower, upper, new_lower, new_upper):  # type: ignore[no-untyped-def]
+    for i in range(start, stop):
+        xl, xu, yl, yu = contract(table, inverse_resolution, resolution, lower[i, 0], upper[i, 0], lower[i, 1], upper[i, 1])
+        new_lower[i, 0], new_lower[i, 1] = xl, yl
+        new_upper[i, 0], new_upper[i, 1] = xu, yu
+
+
+class CellIndex:
+    """A set of cells of a grid, with its summed-area table.
+
+    Parameters
+    ----------
+    mask
+        Which cells belong to the set, bool of shape (rows, columns), row 0 at the bottom.
+    resolution
+        The width of a cell in metres.
+
+    Attributes
+    ----------
+    table
+        int32 of shape (rows + 1, columns + 1): ``table[i, j]`` cells of the set lie in rows below i and columns below j.
+    resolution, inverse_resolution
+        The width of a cell, and 1 / resolution rounded to nearest.
+
+    Raises
+    ------
+    MapError
+        If the mask is empty, too large or no two-dimensional mask, or the resolution cannot be meant.
+    """
+
+    def __init__(self, mask: npt.NDArray[np.bool_], resolution: float) -> None:
+        import cv2
+
+        if mask.ndim != 2 or mask.dtype != np.bool_:
+            raise MapError(f"the mask is an array of {mask.dtype} with shape {mask.shape}; give bool with shape (rows, columns)")
+        check_size(*mask.shape)
+        check_resolution(resolution)
+        self.table: npt.NDArray[np.int32] = np.asarray(cv2.integral(np.ascontiguousarray(mask).view(np.uint8)), dtype=np.int32)
+        self.resolution = float(resolution)
+        self.inverse_resolution = 1.0 / self.resolution
+
+    def meet(self, boxes: Boxes) -> npt.NDArray[np.bool_]:
+        """Return which boxes (x, y) meet a cell of the set, shape (n,); never False where one does.
+
+        Raises
+        ------
+        RoundingModeError
+            If the processor does not round to nearest.
+        """
+        _check_plane(boxes)
+        found = np.empty(len(boxes), dtype=np.bool_)
+        threads.run(_meet_rows, len(boxes), self.table, self.inverse_resolution, boxes.lower, boxes.upper, found)
+        return found
+
+
+class CellContractor:
+    """The contractor of "this point lies in a cell of the set": boxes (x, y) shrink to the hull of their part in cells.
+
+    Parameters
+    ----------
+    index
+        The set of cells.
+    """
+
+    dimension = 2
+
+    def __init__(self, index: CellIndex) -> None:
+        self._index = index
+
+    def contract(self, boxes: Boxes) -> Boxes:
+        """Return the narrowed boxes, in the grid frame; the hull is the tightest in doubles.
+
+        Raises
+        ------
+        RoundingModeError
+            If the processor does not round to nearest.
+        """
+        _check_plane(boxes)
+        lower, upper = np.empty_like(boxes.lower), np.empty_like(boxes.upper)
+        index = self._index
+        threads.run(
+            _contract_rows, len(boxes), index.table, index.inverse_resolution, index.resolution, boxes.lower, boxes.upper, lower, upper
+        )
+        return Boxes(lower, upper)
+
+
+def _check_plane(boxes: Boxes) -> None:
+    if boxes.dimension != 2:
+        raise ValueError(f"boxes have {boxes.dimension} dimensions; boxes in the grid have 2: x, y")

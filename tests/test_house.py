@@ -1,0 +1,133 @@
+"""The rules of the house, read off the source: who may import whom, how files are named, and what no file may hold."""
+
+import ast
+import re
+import subprocess
+from collections.abc import Iterator
+from graphlib import TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+
+FLOORS = [
+    {"errors", "lazy", "pose", "contractors"},
+    {"maps", "datasets"},
+    {"membership"},
+    {"lidar", "bouncing", "compass", "odometer", "active", "particles"},
+    {"results", "study"},
+    {"cli"},
+]
+SIBLINGS = {  # the only imports within a floor
+    "contractors": {"errors", "lazy"},  # contractors know no robot, so no pose
+    "pose": {"errors"},
+    "datasets": {"maps"},  # the simulator casts rays in a grid
+    "active": {"lidar", "odometer"},
+    "particles": {"lidar"},
+    "study": {"results"},
+}
+VAGUE = {"utils", "util", "helpers", "helper", "common", "core", "misc"}
+
+
+def kept_files() -> list[Path]:
+    """Every file that git tracks or would track, but no link."""
+    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "-z"], cwd=ROOT, capture_output=True, text=True, check=True)
+    files = [ROOT / name for name in listed.stdout.split("\0") if name]
+    return [file for file in files if file.is_file() and not file.is_symlink()]
+
+
+def modules() -> dict[str, Path]:
+    """The modules of ial by their dotted names."""
+    found = {}
+    for file in kept_files():
+        parts = file.relative_to(ROOT).with_suffix("").parts
+        if file.suffix == ".py" and parts[0] in {"ial", "contractors", "maps", "datasets"}:
+            parts = parts if parts[0] == "ial" else ("ial", *parts)
+            found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = file
+    return found
+
+
+MODULES = modules()
+
+
+def imports(module: str, at_run_time: bool = False) -> Iterator[str]:
+    """Yield the modules of ial that a module imports, anywhere in its text; `at_run_time` leaves out what only type checkers import."""
+    tree = ast.parse(MODULES[module].read_text())
+    if at_run_time:
+        tree.body = [node for node in tree.body if not (isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING")]
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name.split(".")[0] == "ial")
+        elif isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "ial":
+            for alias in node.names:
+                deeper = f"{node.module}.{alias.name}"
+                yield deeper if deeper in MODULES else str(node.module)
+
+
+def room(module: str) -> str:
+    return module.split(".")[1]
+
+
+def floor(name: str) -> int:
+    (number,) = (number for number, rooms in enumerate(FLOORS) if name in rooms)
+    return number
+
+
+def may_import(importer: str, imported: str) -> bool:
+    return importer == imported or floor(imported) < floor(importer) or imported in SIBLINGS.get(importer, ())
+
+
+@pytest.mark.parametrize(
+    ("importer", "imported", "allowed"),
+    [
+        ("lidar", "contractors", True),
+        ("contractors", "pose", False),
+        ("maps", "datasets", False),
+        ("maps", "lidar", False),
+        ("particles", "lidar", True),
+        ("lidar", "particles", False),
+        ("results", "study", False),
+        ("cli", "results", True),
+    ],
+)
+def test_floors_are_read_as_the_house_says(importer: str, imported: str, allowed: bool) -> None:
+    assert may_import(importer, imported) is allowed
+
+
+@pytest.mark.parametrize("module", sorted(name for name in MODULES if name != "ial"))
+def test_a_room_imports_only_from_beneath(module: str) -> None:
+    targets = {target for target in imports(module) if target != "ial"}
+    assert {target for target in targets if not may_import(room(module), room(target))} == set()
+
+
+def test_no_circles() -> None:
+    TopologicalSorter({name: set(imports(name, at_run_time=True)) - {"ial", name} for name in MODULES.keys() - {"ial"}}).prepare()
+
+
+@pytest.mark.parametrize("module", sorted(MODULES))
+def test_a_room_names_the_file_of_its_own_nouns(module: str) -> None:
+    own = f"ial.{room(module)}" if "." in module else ""
+    assert MODULES[module].name == "__init__.py" or own not in set(imports(module)), f"import from the file inside {own} that defines it"
+
+
+def test_no_vague_names() -> None:
+    assert [str(file) for file in kept_files() if VAGUE & set(file.relative_to(ROOT).with_suffix("").parts)] == []
+
+
+def test_tests_mirror_the_tree() -> None:
+    rooms = {path.name for path in (ROOT / "ial").iterdir() if path.is_dir() and not path.name.startswith("_")}
+    folders = {file.parent.name for file in kept_files() if file.parent.parent == ROOT / "tests" and file.suffix == ".py"}
+    assert folders <= rooms
+
+
+def test_no_path_of_a_machine() -> None:
+    path = re.compile(r"(?<![\w.])/(?:work|farm|home|root|Users|tmp)/\w")
+    hits = []
+    for file in kept_files():
+        content = file.read_bytes()
+        if b"\0" not in content:
+            hits += [
+                f"{file.relative_to(ROOT)}: {line.strip()}" for line in content.decode(errors="replace").splitlines() if path.search(line)
+            ]
+    assert hits == []
