@@ -51,7 +51,7 @@ class LaserLine:
 
 def flaser_increment(beams: int) -> float:
     """Return the step of a FLASER line in radians: 180 beams leave out the last of the half circle, 181 hold both ends."""
-    return math.pi / (beams if beams % 2 == 0 else max(beams - 1, 1))
+    return math.pi / max(beams - beams % 2, 1)
 
 
 def parse_flaser(words: list[bytes]) -> LaserLine:

@@ -9,13 +9,13 @@ import numpy as np
 
 from ial.datasets.recording import Reading, Recording
 from ial.datasets.scan import Mounting
+from ial.datasets.tf_buffer import ODOM_FRAME
 from ial.errors import OutputError
 
 if TYPE_CHECKING:
     from ial.datasets.bag_writer import BagWriter
 
 BASE = "base_link"
-ODOM = "odom"
 
 
 def convert(recording: Recording, path: str | Path) -> int:
@@ -78,14 +78,14 @@ def _write_mounting(bag: "BagWriter", first: Reading) -> None:
 def _write_odometry(bag: "BagWriter", reading: Reading) -> None:
     odometry, stamp = reading.odometry, reading.stamp_ns
     turn = _quaternion(bag, 0.0, 0.0, odometry.z, odometry.w)
-    bag.write("/tf", "tf2_msgs/msg/TFMessage", stamp, _transform(bag, stamp, ODOM, BASE, odometry.x, odometry.y, turn))
+    bag.write("/tf", "tf2_msgs/msg/TFMessage", stamp, _transform(bag, stamp, ODOM_FRAME, BASE, odometry.x, odometry.y, turn))
     position = bag.message("geometry_msgs/msg/Point", x=odometry.x, y=odometry.y, z=0.0)
     pose = bag.message("geometry_msgs/msg/Pose", position=position, orientation=turn)
     zero = bag.message("geometry_msgs/msg/Vector3", x=0.0, y=0.0, z=0.0)
     twist = bag.message("geometry_msgs/msg/Twist", linear=zero, angular=zero)
     message = bag.message(
         "nav_msgs/msg/Odometry",
-        header=bag.header(stamp, ODOM),
+        header=bag.header(stamp, ODOM_FRAME),
         child_frame_id=BASE,
         pose=bag.message("geometry_msgs/msg/PoseWithCovariance", pose=pose, covariance=np.zeros(36)),
         twist=bag.message("geometry_msgs/msg/TwistWithCovariance", twist=twist, covariance=np.zeros(36)),
@@ -93,7 +93,7 @@ def _write_odometry(bag: "BagWriter", reading: Reading) -> None:
     bag.write("/odom", "nav_msgs/msg/Odometry", stamp, message)
     if odometry.error_m or odometry.error_rad:
         error = bag.message("geometry_msgs/msg/Vector3", x=odometry.error_m, y=0.0, z=odometry.error_rad)
-        stamped = bag.message("geometry_msgs/msg/Vector3Stamped", header=bag.header(stamp, ODOM), vector=error)
+        stamped = bag.message("geometry_msgs/msg/Vector3Stamped", header=bag.header(stamp, ODOM_FRAME), vector=error)
         bag.write("/odom_error", "geometry_msgs/msg/Vector3Stamped", stamp, stamped)
 
 

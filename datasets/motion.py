@@ -184,6 +184,7 @@ class MotionBounds:
         delta
             The step from odometry: a pose in the frame of the earlier one, or a box around it (`Motion.between`).
         """
+        check_rounding()
         recorded = Motion.around(delta) if isinstance(delta, Pose) else delta
         dx, dy, turn = np.maximum(np.abs(recorded.lower), np.abs(recorded.upper)).tolist()
         distance = up(up(math.hypot(dx, dy)))

@@ -115,15 +115,16 @@ def steps(recording: Recording, bounds: MotionBounds, start: int = 0, stop: int 
     for reading in recording.readings():
         if stop is not None and reading.index >= stop:
             break
-        if previous is not None and motion is not None:
-            motion = motion.compose(bounds.enclose(Motion.between(previous.odometry, reading.odometry)))
+        if previous is not None and yielded:
+            recorded = bounds.enclose(Motion.between(previous.odometry, reading.odometry))
+            motion = recorded if motion is None else motion.compose(recorded)
         previous = reading
         if reading.index < start or (reading.index - start) % every:
             continue
         usable = usable or bool((reading.scan.classes() == BeamClass.HIT).any())
-        yield Step(reading.index, reading.stamp_ns, motion if yielded else None, reading.scan, reading.odometry.pose)
+        yield Step(reading.index, reading.stamp_ns, motion, reading.scan, reading.odometry.pose)
         yielded += 1
-        motion = Motion.identity()
+        motion = None
     _check_any(recording, yielded, usable, start)
 
 

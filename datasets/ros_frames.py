@@ -46,7 +46,7 @@ def odometry_from_tf(buffer: TransformBuffer, name: str) -> tuple[OdometryBuffer
         If tf has no such edge.
     """
     for base in BASE_FRAMES:
-        samples = buffer.samples("odom", base)
+        samples = buffer.odometry(base)
         if samples:
             poses = [(stamp, Odometry(*at.translation[:2], *at.quaternion[2:])) for stamp, at in samples]
             return OdometryBuffer((stamp, odometry) for stamp, odometry in poses if odometry.valid), base

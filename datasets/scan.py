@@ -7,6 +7,7 @@ from enum import IntEnum
 import numpy as np
 import numpy.typing as npt
 
+from ial.contractors.rounding import check_rounding
 from ial.datasets.odometry import quaternion_heading
 from ial.errors import RecordingError
 from ial.pose import Pose
@@ -142,7 +143,13 @@ class LaserScan:
 
         They enclose ``angle_min + i · angle_increment`` for every real angle and increment that round to the given float32 numbers; the
         sensor's own bearing error comes on top. For a lidar that hangs upside down the sign is reversed.
+
+        Raises
+        ------
+        RoundingModeError
+            If the processor does not round to nearest.
         """
+        check_rounding()
         index = np.arange(len(self.ranges), dtype=np.float64)
         centre = self.angle_min + index * self.angle_increment
         slack = (_half_step(self.angle_min) + index * _half_step(self.angle_increment)) * _SAFETY

@@ -7,6 +7,8 @@ import math
 from collections import deque
 from dataclasses import dataclass
 
+ODOM_FRAME = "odom"
+
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
 
@@ -67,43 +69,45 @@ class Transform:
 
 
 class TransformBuffer:
-    """The samples of every edge of the tree of frames.
+    """The edges of the tree of frames.
 
-    An edge is *fixed* if all its samples are equal, whether they came on ``/tf_static`` or ``/tf``.
+    An edge is *fixed* if all its samples are equal, whether they came on ``/tf_static`` or ``/tf``. Only edges that leave the frame
+    ``odom`` are kept sample by sample, so that a robot with many joints does not fill the memory.
     """
 
     def __init__(self) -> None:
-        self._edges: dict[tuple[str, str], list[tuple[int, Transform]]] = {}
+        self._first: dict[tuple[str, str], Transform] = {}
+        self._moving: set[tuple[str, str]] = set()
+        self._samples: dict[str, list[tuple[int, Transform]]] = {}
 
     def add(self, parent: str, child: str, stamp_ns: int, transform: Transform) -> None:
         """Take a sample of the edge ``T_parent_child``; one that is not finite is left out."""
-        if transform.valid:
-            self._edges.setdefault((parent, child), []).append((stamp_ns, transform))
+        if not transform.valid:
+            return
+        if self._first.setdefault((parent, child), transform) != transform:
+            self._moving.add((parent, child))
+        if parent == ODOM_FRAME:
+            self._samples.setdefault(child, []).append((stamp_ns, transform))
 
     @property
     def edges(self) -> list[tuple[str, str]]:
         """The edges (parent, child) that have samples."""
-        return sorted(self._edges)
+        return sorted(self._first)
 
     @property
     def frames(self) -> set[str]:
         """The names of all frames."""
-        return {frame for edge in self._edges for frame in edge}
+        return {frame for edge in self._first for frame in edge}
 
-    def samples(self, parent: str, child: str) -> list[tuple[int, Transform]]:
-        """Return the (stamp, transform) samples of an edge, in the order of recording."""
-        return self._edges.get((parent, child), [])
-
-    def is_fixed(self, parent: str, child: str) -> bool:
-        """Return whether all samples of an edge are equal."""
-        samples = self._edges[parent, child]
-        return all(transform == samples[0][1] for _, transform in samples)
+    def odometry(self, base: str) -> list[tuple[int, Transform]]:
+        """Return the (stamp, ``T_odom_base``) samples, in the order of recording."""
+        return self._samples.get(base, [])
 
     def _path(self, target: str, source: str) -> list[tuple[str, str]] | None:
         """Return the steps (from, to) that lead from one frame to another, fixed edges only; None if there is no such path."""
         neighbours: dict[str, list[str]] = {}
         for parent, child in self.edges:
-            if self.is_fixed(parent, child):
+            if (parent, child) not in self._moving:
                 neighbours.setdefault(parent, []).append(child)
                 neighbours.setdefault(child, []).append(parent)
         came_from = {target: target}
@@ -130,7 +134,7 @@ class TransformBuffer:
         steps = self._path(target, source)
         if steps is None:
             return None
-        edges = [self._edges[step][0][1] if step in self._edges else self._edges[step[::-1]][0][1].inverse() for step in steps]
+        edges = [self._first[step] if step in self._first else self._first[step[::-1]].inverse() for step in steps]
         product = edges[0]
         for edge in edges[1:]:
             product = product @ edge

@@ -61,11 +61,12 @@ def edge_above(index, resolution):  # type: ignore[no-untyped-def]
 
 @kernel
 def _trimmed(inverse_resolution, resolution, lower, upper, cells):  # type: ignore[no-untyped-def]
-    """Return `cells_met` without the outermost cells that the slack alone let in."""
+    """Return `cells_met` without the outermost cells that the slack alone let in: exactly the cells that are met."""
     first, stop = cells_met(inverse_resolution, lower, upper, cells)
-    if first < stop and edge_above(first + 1, resolution) < lower:
+    # A number lies below a double exactly if the largest double that is not above it does.
+    if first < stop and edge_below(first + 1, resolution) < lower:
         first += 1
-    if first < stop and edge_below(stop - 1, resolution) > upper:
+    if first < stop and edge_above(stop - 1, resolution) > upper:
         stop -= 1
     return first, stop
 

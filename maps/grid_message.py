@@ -131,6 +131,8 @@ def read_map_topic(path: str | Path, topic: str | None = None) -> OccupancyGrid:
             return grid_from_message(reader.deserialize(content, connection.msgtype))
     except MapError as error:
         raise MapError(f"{path}: {error}") from error
+    except MapWarning:  # made an error by a filter
+        raise
     except Exception as error:  # a damaged bag surfaces as almost any error of the reader and of what it is built on
         raise MapError(f"{path}: the recording cannot be read ({type(error).__name__}: {error}); record or download it again") from error
 

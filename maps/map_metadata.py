@@ -14,7 +14,7 @@ from ial.pose import Pose, wrap
 Mode = Literal["trinary", "scale", "raw"]
 Semantics = Literal["nav2", "ros1"]
 
-_LARGEST_FILE = 2**16  # bytes; a map's YAML file has some 200
+_LARGEST_FILE = 2**14  # bytes; a map's YAML file has some 200, and a hostile one of this size is read in a fraction of a second
 _FALSE, _TRUE = ("0", "false", "no", "off"), ("1", "true", "yes", "on")
 
 

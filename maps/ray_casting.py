@@ -14,6 +14,7 @@ from ial.contractors.kernels import kernel
 from ial.maps.occupancy_grid import check_resolution, check_size
 
 TOUCH = 1e-9  # cells
+FARTHEST = 2.0**40  # cells; from farther away, a double does not tell the cells of a grid apart
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -49,7 +50,7 @@ def _along_lines(mask, u, v, du, dv, reach):  # type: ignore[no-untyped-def]
         mask, u, v, du = mask.T, v, u, dv
     row0, row1 = max(int(np.ceil(v - TOUCH)) - 1, 0), min(int(np.floor(v + TOUCH)), mask.shape[0] - 1)
     step = 1 if du > 0.0 else -1
-    column = max(int(np.floor(u)), 0) if step > 0 else min(int(np.ceil(u)) - 1, mask.shape[1] - 1)
+    column = int(max(np.floor(u), 0.0) if step > 0 else min(np.ceil(u) - 1.0, mask.shape[1] - 1.0))
     while 0 <= column < mask.shape[1]:
         edge = column if step > 0 else column + 1
         distance = max((edge - u) * step, 0.0)
@@ -157,13 +158,14 @@ def cast_rays(
     MapError
         If the mask has no cells or too many, or the resolution cannot be meant.
     ValueError
-        If a start is not finite, an angle exceeds 1e5 rad, or `max_range` is NaN.
+        If a start is NaN or farther away than 2**40 cells, an angle NaN or beyond 1e5 rad, or `max_range` NaN.
     """
     check_size(*mask.shape)
     check_resolution(resolution)
     at_x, at_y, angle = np.broadcast_arrays(*(np.asarray(each, dtype=np.float64) for each in (x, y, angles)))
-    if not (np.isfinite(at_x).all() and np.isfinite(at_y).all() and (np.abs(angle) <= LARGEST_ANGLE).all()):
-        raise ValueError(f"a ray starts at no finite point, or its angle is not within ±{LARGEST_ANGLE:g} rad")
+    farthest = FARTHEST * resolution
+    if not ((np.abs(at_x) <= farthest).all() and (np.abs(at_y) <= farthest).all() and (np.abs(angle) <= LARGEST_ANGLE).all()):
+        raise ValueError(f"a ray starts at no point within ±{farthest:g} m, or its angle is not within ±{LARGEST_ANGLE:g} rad")
     if not max_range == max_range:
         raise ValueError("the maximum range of the rays is NaN")
     distance = np.empty(angle.shape)

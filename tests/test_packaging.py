@@ -140,9 +140,9 @@ def test_type_checkers_see_the_names_that_load_lazily(package: str, tmp_path: Pa
     names = run_elsewhere(f"import {package.replace('/', '.')} as package; print(*getattr(package, '__all__', ()))", tmp_path).split()
     tree = ast.parse((ROOT / package / "__init__.py").read_text())
     blocks = [node for node in tree.body if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"]
-    seen = [alias.asname or alias.name for block in blocks for node in block.body if isinstance(node, ast.ImportFrom) for alias in node.names]
+    imports = [node for block in blocks for node in block.body if isinstance(node, ast.ImportFrom)]
     if blocks:
-        assert sorted(seen) == sorted(names)
+        assert sorted(alias.asname or alias.name for node in imports for alias in node.names) == sorted(names)
 
 
 def pins(name: str) -> dict[str, str]:

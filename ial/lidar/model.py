@@ -15,6 +15,7 @@ from ial.lidar.prediction import move
 from ial.maps.cell_index import CellIndex
 from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid, check_usable
 from ial.membership import Model
+from ial.pose import Pose
 
 _LAID_OUT_CELLS = 1 << 17  # above, a set is laid out coarser, and refined by the scan
 
@@ -97,9 +98,14 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         if not len(boxes):
             return PoseSet(boxes)
         contractor = PoseContractor(reading, self.occupied, self.domain, self.config.bounds.map_error_m)
-        limits = {"max_boxes": self.config.max_boxes, "max_seconds": self.config.max_seconds}
-        paving = pave(contractor, boxes, self.lattice.widths, **limits)
+        paving = pave(
+            contractor, boxes, self.lattice.widths, max_boxes=self.config.max_boxes, max_seconds=self.config.max_seconds
+        )
         return PoseSet(paving.boxes, limited=paving.limited, nodes=paving.nodes)
+
+    def in_domain(self, pose: Pose) -> bool:
+        """Return whether a position in the grid's frame lies in a cell of the domain."""
+        return bool(self.domain.meet(Boxes.of([(pose.x, pose.x), (pose.y, pose.y)]))[0])
 
     def empty(self, states: PoseSet) -> bool:
         """Return whether no pose is left."""

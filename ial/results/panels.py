@@ -1,0 +1,162 @@
+"""The parts of a picture: the walk, the first step, one scan on the walls, and the status over time."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from ial.contractors.boxes import Boxes
+from ial.datasets.recording import Step
+from ial.datasets.scan import BeamClass
+from ial.maps.cell_index import CellIndex
+from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
+from ial.pose import Pose
+from ial.results.enclosures import Enclosure
+from ial.results.map_layer import MapLayer, View
+from ial.results.palette import EDGE, OFF_WALL, ON_WALL, PATH, STATUS_COLOURS, TRUTH
+
+_HULLS = 50_000  # more are thinned out evenly
+_RINGS = 200  # more hypotheses of the first scan are not ringed
+_BAR_PIXELS = 1500  # of the status over time; more scans than that share a bar
+
+FloatArray = npt.NDArray[np.float64]
+
+
+def draw_walk(axes: Axes, layer: MapLayer, walk: Sequence[Enclosure], truth: Sequence[Pose]) -> None:
+    """Draw the hull of every hypothesis of every scan, the path of the localized robot, and the reference if there is one."""
+    layer.draw(axes)
+    rows = [(STATUS_COLOURS[scan.status], each) for scan in walk for each in scan.hypotheses if not each.prediction]
+    rows = rows[:: max(1, len(rows) // _HULLS)]
+    for certain in (False, True):
+        chosen = [(colour, each) for colour, each in rows if (colour == STATUS_COLOURS["localized"]) is certain]
+        corners = [
+            [(each.x[0], each.y[0]), (each.x[1], each.y[0]), (each.x[1], each.y[1]), (each.x[0], each.y[1])] for _, each in chosen
+        ]
+        colours = [colour for colour, _ in chosen]
+        alpha = 0.30 if certain else 0.16
+        axes.add_collection(PolyCollection(corners, facecolors=colours, edgecolors="none", alpha=alpha, zorder=2 + certain), autolim=False)
+        edges = PolyCollection(corners, facecolors="none", edgecolors=colours, linewidths=0.4, alpha=0.6, zorder=2 + certain)
+        axes.add_collection(edges, autolim=False)
+    pieces = _pieces(walk)
+    axes.add_collection(LineCollection(pieces, colors="white", linewidths=3.2, zorder=5), autolim=False)
+    axes.add_collection(LineCollection(pieces, colors=PATH, linewidths=1.6, zorder=6), autolim=False)
+    if truth:
+        axes.plot([pose.x for pose in truth], [pose.y for pose in truth], color=TRUTH, linewidth=1.1, linestyle=(0, (4, 2)), zorder=7)
+    last = next((scan.pose for scan in reversed(walk) if scan.pose is not None), None)
+    if last is not None:
+        _draw_robot(axes, last)
+    keys: list[Line2D | Patch] = [Line2D([], [], color=PATH, linewidth=1.6, label="path")] if pieces else []
+    keys += [Line2D([], [], color=TRUTH, linestyle=(0, (4, 2)), label="reference")] if truth else []
+    found = {scan.status for scan in walk}
+    keys += [Patch(color=colour, alpha=0.6, label=f"enclosures, {name}") for name, colour in STATUS_COLOURS.items() if name in found]
+    _finish(axes, f"every pose that the data allow, for each of {len(walk)} scans", keys)
+
+
+def _pieces(walk: Sequence[Enclosure]) -> list[FloatArray]:
+    """Return the path, in pieces between which the robot was not localized."""
+    pieces: list[list[tuple[float, float]]] = [[]]
+    for scan in walk:
+        if scan.pose is None:
+            pieces.append([])
+        else:
+            pieces[-1].append((scan.pose.x, scan.pose.y))
+    return [np.array(piece if len(piece) > 1 else piece * 2) for piece in pieces if piece]
+
+
+def draw_first(axes: Axes, layer: MapLayer, boxes: Boxes, walk: Sequence[Enclosure]) -> None:
+    """Draw the answer to the first scan, which is a search of the whole map unless the start was given."""
+    layer.draw(axes)
+    layer.draw_boxes(axes, boxes, STATUS_COLOURS["lost"])
+    hypotheses = walk[0].hypotheses if walk else ()
+    if len(hypotheses) <= _RINGS:
+        for pose in (each.centre for each in hypotheses):
+            axes.plot([pose.x], [pose.y], "o", markersize=13, fillstyle="none", color=STATUS_COLOURS["lost"], markeredgewidth=0.9, zorder=4)
+    count = "1 hypothesis" if len(hypotheses) == 1 else f"{len(hypotheses)} hypotheses"
+    _finish(axes, f"the first scan alone: {count}, {len(boxes)} boxes", [])
+
+
+def draw_scan(axes: Axes, layer: MapLayer, grid: OccupancyGrid, scan: tuple[Step, Pose] | None, walls_m: float) -> None:
+    """Lay the hits of one scan on the walls, as seen from the pose of the robot."""
+    if scan is None:
+        layer.draw(axes)
+        _finish(axes, "no scan to lay on the walls: the robot was never localized", [])
+        return
+    step, pose = scan
+    points = _end_points(step, pose)
+    on = _near_walls(points, grid, walls_m)
+    laser = pose @ step.scan.mounting.pose
+    layer.draw(axes, _around(points, pose))
+    rays = np.stack([np.broadcast_to((laser.x, laser.y), points.shape), points], axis=1)
+    axes.add_collection(LineCollection(list(rays), colors=EDGE, linewidths=0.25, alpha=0.45, zorder=3), autolim=False)
+    for chosen, colour, label in ((on, ON_WALL, "within the bounds of a wall"), (~on, OFF_WALL, "elsewhere")):
+        axes.scatter(points[chosen, 0], points[chosen, 1], s=9, color=colour, linewidths=0, zorder=5, label=f"{chosen.sum()} hits {label}")
+    _draw_robot(axes, pose)
+    _finish(axes, f"scan {step.index} laid on the walls", list(axes.get_legend_handles_labels()[0]))
+
+
+def _end_points(step: Step, pose: Pose) -> FloatArray:
+    """Return where the hits of a scan end in the map frame, shape (n, 2)."""
+    hits = step.scan.classes() == BeamClass.HIT
+    lower, upper = step.scan.bearings()
+    laser = pose @ step.scan.mounting.pose
+    angle = laser.theta + 0.5 * (lower + upper)[hits]
+    reach = step.scan.ranges[hits].astype(np.float64)
+    return np.stack([laser.x + reach * np.cos(angle), laser.y + reach * np.sin(angle)], axis=1)
+
+
+def _near_walls(points: FloatArray, grid: OccupancyGrid, walls_m: float) -> npt.NDArray[np.bool_]:
+    """Return which points lie near an occupied cell, by a square around each."""
+    x, y, _ = grid.to_grid(points[:, 0], points[:, 1])
+    at = np.stack([x, y], axis=1)
+    return np.asarray(CellIndex(grid.mask(OCCUPIED), grid.resolution).meet(Boxes(at - walls_m, at + walls_m)))
+
+
+def _around(points: FloatArray, pose: Pose) -> View:
+    """Return a view of most of some points, and of the robot."""
+    at = np.array([pose.x, pose.y])
+    low, high = np.minimum(np.percentile(points, 4.0, axis=0), at), np.maximum(np.percentile(points, 96.0, axis=0), at)
+    margin = 0.06 * float((high - low).max()) + 0.5
+    return float(low[0]) - margin, float(high[0]) + margin, float(low[1]) - margin, float(high[1]) + margin
+
+
+def draw_status(axes: Axes, walk: Sequence[Enclosure]) -> None:
+    """Draw how many hypotheses each scan left, in the colour of its status."""
+    group = max(1, math.ceil(len(walk) / _BAR_PIXELS))
+    bars = [max(walk[at : at + group], key=lambda scan: len(scan.hypotheses)) for at in range(0, len(walk), group)]
+    index = np.array([bar.index for bar in bars], dtype=np.float64)
+    count = np.array([max(1, len(bar.hypotheses)) for bar in bars], dtype=np.float64)
+    width = float(np.diff(index).min()) if len(index) > 1 else 1.0
+    axes.bar(index, count - 0.5, width=width, bottom=0.5, color=[STATUS_COLOURS[bar.status] for bar in bars], linewidth=0)
+    axes.set(yscale="log", ylim=(0.5, max(10.0, 1.6 * count.max(initial=1.0))), xlabel="scan")
+    axes.margins(x=0.004)
+    axes.yaxis.set_major_formatter("{x:g}")
+    names = [name for name in STATUS_COLOURS if any(scan.status == name for scan in walk)]
+    tally = {name: sum(scan.status == name for scan in walk) for name in names}
+    keys = [Patch(color=STATUS_COLOURS[name], label=f"{name} ({tally[name]})") for name in names]
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.tick_params(labelsize=8, colors="#444444")
+    axes.set_title("hypotheses left by each scan", loc="left", fontsize=10)
+    axes.legend(handles=keys, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=len(keys), fontsize=8, frameon=False)
+
+
+def _draw_robot(axes: Axes, pose: Pose) -> None:
+    """Draw a wedge that points where the robot looks, of the same size in every picture."""
+    outline = [(1.0, 0.0), (-0.7, 0.6), (-0.35, 0.0), (-0.7, -0.6)]
+    c, s = math.cos(pose.theta), math.sin(pose.theta)
+    marker = [(c * x - s * y, s * x + c * y) for x, y in outline]
+    axes.plot([pose.x], [pose.y], marker=marker, markersize=17, color=PATH, markeredgecolor="white", markeredgewidth=1.0, zorder=8)
+
+
+def _finish(axes: Axes, title: str, keys: Sequence[object]) -> None:
+    axes.set_title(title, loc="left", fontsize=10)
+    axes.tick_params(labelsize=8, colors="#444444")
+    axes.locator_params(nbins=8)
+    for spine in axes.spines.values():
+        spine.set_color(EDGE)
+    if keys:
+        axes.legend(handles=list(keys), loc="lower right", fontsize=8, framealpha=0.9, edgecolor=EDGE)

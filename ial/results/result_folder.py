@@ -1,0 +1,114 @@
+"""`ResultFolder`: the folder of a run, whose files appear together when the run is complete."""
+
+import contextlib
+import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+from pathlib import Path
+from types import TracebackType
+
+from ial.datasets.recording import Step
+from ial.errors import OutputError
+from ial.lidar.estimate import Estimate
+from ial.results.sink import Sink
+
+
+class ResultFolder(AbstractContextManager["ResultFolder"]):
+    """A folder to write into, and the sinks that write there.
+
+    Files are written in a hidden subfolder and get their names when the block ends without an error. Otherwise nothing changes: a file of
+    an earlier run keeps its content, and folders that were made for this run are removed.
+
+    Parameters
+    ----------
+    path
+        The folder; made if it does not exist, with its parents.
+
+    Raises
+    ------
+    OutputError
+        If nothing can be written there. This is found out at once, before any work is done.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from ial.datasets import sample_grid, sample_recording
+    >>> from ial.lidar.localizer import Localizer
+    >>> from ial.lidar.run import localize
+    >>> from ial.results import ResultFolder, TrajectoryFile
+    >>> with tempfile.TemporaryDirectory() as out, ResultFolder(out) as folder:
+    ...     folder.attach(TrajectoryFile(folder.place("trajectory.tum")))
+    ...     for step, estimate in localize(sample_recording(), Localizer(sample_grid()), stop=3):
+    ...         folder.add(step, estimate)
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        self.path = Path(path)
+        self._made = [each for each in (self.path, *self.path.parents) if not each.exists()]
+        self._sinks: list[Sink] = []
+        self._stack = ExitStack()
+        try:
+            self.path.mkdir(parents=True, exist_ok=True)
+            self._hidden = Path(tempfile.mkdtemp(prefix=".unfinished-", dir=self.path))
+        except OSError as error:
+            self._remove_made()
+            raise OutputError(
+                f"{self.path}: results cannot be written there ({error.strerror or error}); choose another folder with --out"
+            ) from None
+
+    def place(self, name: str) -> Path:
+        """Return where to write a file that will be called so."""
+        return self._hidden / name
+
+    def attach(self, *sinks: Sink) -> None:
+        """Feed these sinks from now on, and close them at the end."""
+        for sink in sinks:
+            self._sinks.append(self._stack.enter_context(sink))
+
+    def add(self, step: Step, estimate: Estimate) -> None:
+        """Hand one scan to every sink.
+
+        Raises
+        ------
+        OutputError
+            If one cannot write.
+        """
+        with self._trouble():
+            for sink in self._sinks:
+                sink.add(step, estimate)
+
+    def write(self, name: str, text: str) -> None:
+        """Write a whole file.
+
+        Raises
+        ------
+        OutputError
+            If it cannot be written.
+        """
+        with self._trouble():
+            self.place(name).write_text(text, encoding="utf-8")
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        try:
+            with self._trouble():
+                self._stack.__exit__(kind, error, trace)
+                if kind is None:
+                    for file in sorted(self._hidden.iterdir()):
+                        file.replace(self.path / file.name)
+        finally:
+            shutil.rmtree(self._hidden, ignore_errors=True)
+            if not any(self.path.iterdir()):
+                self._remove_made()
+
+    def _remove_made(self) -> None:
+        for folder in self._made:
+            with contextlib.suppress(OSError):
+                folder.rmdir()
+
+    @contextmanager
+    def _trouble(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            raise OutputError(f"{self.path}: the results cannot be written ({error.strerror or error}); is the disk full?") from None

@@ -1,0 +1,129 @@
+"""`Containment`: the guarantee measured against a reference trajectory."""
+
+from collections import Counter
+from typing import Any, Literal
+
+import numpy as np
+
+from ial.contractors.angle import contains_angle
+from ial.datasets.recording import Step
+from ial.datasets.trajectory import Trajectory
+from ial.lidar.beams import select_beams
+from ial.lidar.estimate import Estimate
+from ial.lidar.localizer import Localizer
+from ial.pose import Pose
+from ial.study.good_beams import good_beams
+
+TruthFrame = Literal["base", "laser"]
+
+
+class Containment:
+    """Counts how often the reference pose lies in the answer, and whether the assumptions held when it did not.
+
+    The assumptions hold at a scan if the reference pose is consistent with it (at most q bad beams, inside the domain), and either nothing
+    was assumed before, or the motion between the two reference poses lies in its interval and the reference was contained at the scan before.
+
+    Parameters
+    ----------
+    localizer
+        The localizer that is measured.
+    truth
+        The reference trajectory, in the map frame.
+    frame
+        Whose poses the reference holds: those of the base or of the laser.
+    static
+        Whether each scan was localized by itself.
+    """
+
+    def __init__(self, localizer: Localizer, truth: Trajectory, frame: TruthFrame = "base", *, static: bool = False) -> None:
+        self._localizer = localizer
+        self._truth = truth
+        self._frame = frame
+        self._static = static
+        self._previous: Pose | None = None
+        self._was_contained = True
+        self._started = False
+        self._counts: Counter[str] = Counter()
+        self._errors: list[float] = []
+        self.misses: list[dict[str, Any]] = []
+
+    def reference(self, step: Step) -> Pose | None:
+        """Return ``T_map_base`` of the reference at a scan, None where it has none."""
+        pose = self._truth.at(step.stamp_ns)
+        if pose is None or self._frame == "base":
+            return pose
+        return pose @ step.scan.mounting.pose.inverse()
+
+    def add(self, step: Step, estimate: Estimate) -> None:
+        """Take the estimate of one scan."""
+        self._counts["scans"] += 1
+        pose = self.reference(step)
+        if pose is None:
+            # The chain of assumptions is broken: what held before this scan is unknown at the next.
+            self._previous, self._was_contained, self._started = None, False, True
+            return
+        in_grid = self._localizer.grid.pose_to_grid(pose)
+        contained = estimate.poses.contains(in_grid)
+        broken = self._broken(step, pose, in_grid)
+        holds = not broken and (self._fresh or (self._previous is not None and self._was_contained))
+        self._counts["reference"] += 1
+        self._counts["contained"] += contained
+        self._counts["contained_hull"] += self._in_hull(estimate, pose)
+        self._counts["holds"] += holds
+        self._counts["contained_and_holds"] += contained and holds
+        for each in broken or ([] if holds else ["lost_before"]):
+            self._counts[f"broken_{each}"] += 1
+        if estimate.pose is not None:
+            self._errors.append(float(np.hypot(estimate.pose.x - pose.x, estimate.pose.y - pose.y)))
+        if not contained:
+            self.misses.append({"index": step.index, "status": estimate.status, "broken": broken or ["lost_before"]})
+        self._previous, self._was_contained, self._started = pose, contained, True
+
+    @property
+    def _fresh(self) -> bool:
+        return self._static or not self._started
+
+    def _broken(self, step: Step, pose: Pose, in_grid: Pose) -> list[str]:
+        """Return which assumptions the reference pose breaks at a scan, among beams, motion and domain."""
+        config = self._localizer.config
+        beams = select_beams(step.scan, config.bounds, config.outliers, config.max_beams)
+        bad = len(beams) - int(good_beams(beams, in_grid, self._localizer.grid, config.bounds.map_error_m).sum())
+        broken = ["beams"] if bad > beams.outliers else []
+        if not self._fresh and self._previous is not None and step.motion is not None:
+            if not step.motion.contains(self._previous.inverse() @ pose):
+                broken.append("motion")
+        if not self._localizer.model.in_domain(in_grid):
+            broken.append("domain")
+        return broken
+
+    def _in_hull(self, estimate: Estimate, pose: Pose) -> bool:
+        return any(
+            each.x[0] <= pose.x <= each.x[1] and each.y[0] <= pose.y <= each.y[1] and contains_angle(*each.theta, pose.theta)
+            for each in estimate.hypotheses
+        )
+
+    def summary(self) -> dict[str, Any]:
+        """Return the measures as plain values; a share with an empty denominator is None, and does not pass.
+
+        `broken` counts, over the scans at which the assumptions do not hold, which of them the reference breaks; `lost_before` means that
+        the scan itself breaks none, but the reference was not contained (or not known) at the scan before.
+        """
+        counts = self._counts
+        reference, holds = counts["reference"], counts["holds"]
+        return {
+            "scans_with_reference": reference,
+            "contained": _share(counts["contained"], reference),
+            "contained_hull": _share(counts["contained_hull"], reference),
+            "assumptions_hold": _share(holds, reference),
+            "scans_where_assumptions_hold": holds,
+            "contained_when_assumptions_hold": _share(counts["contained_and_holds"], holds),
+            "broken": {each: counts[f"broken_{each}"] for each in ("beams", "motion", "domain", "lost_before")},
+            "median_position_error_m": float(np.median(self._errors)) if self._errors else None,
+            "truth_frame": self._frame,
+        }
+
+
+def _share(part: int, whole: int) -> float | None:
+    return part / whole if whole else None
+
+
