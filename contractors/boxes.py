@@ -9,6 +9,8 @@ import numpy.typing as npt
 
 FloatArray = npt.NDArray[np.float64]
 
+_LARGEST = float(np.finfo(np.float64).max)
+
 
 @dataclass(frozen=True, eq=False)
 class Boxes:
@@ -90,7 +92,8 @@ class Boxes:
     def bisect(self, axis: npt.NDArray[np.intp]) -> "Boxes":
         """Return each row cut in two at its middle along its own axis: both halves of the first row, both of the second, and so on.
 
-        Halves stay side by side, so repeated bisection leaves neighbours in space close together in memory.
+        Halves stay side by side, so repeated bisection leaves neighbours in space close together in memory. An unbounded side is cut as if it
+        ended at the largest double.
 
         Parameters
         ----------
@@ -99,7 +102,10 @@ class Boxes:
         """
         rows = np.arange(len(self))
         low, high = self.lower[rows, axis], self.upper[rows, axis]
-        middle = low + 0.5 * (high - low)
+        with np.errstate(over="ignore", invalid="ignore"):
+            middle = low + 0.5 * (high - low)
+        far = ~np.isfinite(middle)
+        middle[far] = 0.5 * np.maximum(low[far], -_LARGEST) + 0.5 * np.minimum(high[far], _LARGEST)
         lower, upper = np.repeat(self.lower, 2, axis=0), np.repeat(self.upper, 2, axis=0)
         upper[2 * rows, axis] = middle
         lower[2 * rows + 1, axis] = middle

@@ -38,7 +38,7 @@ def sincos(x):  # type: ignore[no-untyped-def]
     |x| <= `LARGEST_ANGLE`; beyond it the result is NaN.
     """
     # Cody and Waite's reduction to r + rest = x − k·π/2. The first difference is exact; what the second and its product round off
-    # goes into the rest, because r itself may be as small as 2^-55.
+    # goes into the rest, because r itself may be as small as 2^-61.
     k = np.floor(x * _QUARTERS_PER_RADIAN + 0.5) if abs(x) <= LARGEST_ANGLE else np.nan
     reduced = x - k * _QUARTER_1
     product = k * _QUARTER_2

@@ -121,6 +121,6 @@ def kernel(function: Callable[..., Any]) -> Any:
 
     Floating-point semantics stay those of IEEE 754: no fastmath, and a division by zero gives an infinity.
     """
-    dispatcher = numba.njit(nogil=True, error_model="numpy", fastmath=False)(function)
+    dispatcher = numba.njit(nogil=True, error_model="numpy", fastmath=False, forceinline=True)(function)
     dispatcher._cache = _Cache(function)
     return dispatcher

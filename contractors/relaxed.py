@@ -9,7 +9,7 @@ from ial.contractors.threads import run
 
 
 @kernel
-def _covered(openings, closings, needed):  # type: ignore[no-untyped-def]
+def covered(openings, closings, needed):  # type: ignore[no-untyped-def]
     """Return the hull of the points that at least `needed` >= 1 intervals cover, given their sorted lower and their sorted upper bounds.
 
     Such a hull begins where an interval opens and ends where one closes. Intervals are closed: at the same value an opening comes before
@@ -50,7 +50,7 @@ def _intersect_relaxed(start, stop, lower, upper, outliers, out_lower, out_upper
                     openings[kept] = lower[i, j, axis]
                     closings[kept] = upper[i, j, axis]
                     kept += 1
-            low, high = _covered(np.sort(openings[:kept]), np.sort(closings[:kept]), count - outliers)
+            low, high = covered(np.sort(openings[:kept]), np.sort(closings[:kept]), count - outliers)
             empty = empty or low > high
             out_lower[i, axis] = low
             out_upper[i, axis] = high

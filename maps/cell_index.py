@@ -32,7 +32,7 @@ def cells_met(inverse_resolution, lower, upper, cells):  # type: ignore[no-untyp
 
     The range is clamped to 0 … cells, and first >= stop where the interval lies outside. Bounds may be infinite, not NaN.
     """
-    first = np.ceil(lower * inverse_resolution - SLACK) - 1.0
+    first = np.floor(lower * inverse_resolution - SLACK)  # the slack reaches the cell to the left of an edge, too
     stop = np.floor(upper * inverse_resolution + SLACK) + 1.0
     return int(min(max(first, 0.0), cells)), int(max(min(stop, cells), 0.0))
 
@@ -72,7 +72,7 @@ def _trimmed(inverse_resolution, resolution, lower, upper, cells):  # type: igno
 
 
 @kernel
-def _columns_with_cells(table, row0, row1, column0, column1):  # type: ignore[no-untyped-def]
+def columns_with_cells(table, row0, row1, column0, column1):  # type: ignore[no-untyped-def]
     """Return the range from the first to behind the last column with a cell of the set; there must be one."""
     low, high = column0, column1 - 1
     while low < high:
@@ -93,8 +93,8 @@ def _columns_with_cells(table, row0, row1, column0, column1):  # type: ignore[no
 
 
 @kernel
-def _rows_with_cells(table, row0, row1, column0, column1):  # type: ignore[no-untyped-def]
-    return _columns_with_cells(table.T, column0, column1, row0, row1)
+def rows_with_cells(table, row0, row1, column0, column1):  # type: ignore[no-untyped-def]
+    return columns_with_cells(table.T, column0, column1, row0, row1)
 
 
 @kernel
@@ -106,8 +106,8 @@ def contract(table, inverse_resolution, resolution, xl, xu, yl, yu):  # type: ig
     row0, row1 = _trimmed(inverse_resolution, resolution, yl, yu, table.shape[0] - 1)
     if column0 >= column1 or row0 >= row1 or count(table, row0, row1, column0, column1) <= 0:
         return np.inf, -np.inf, np.inf, -np.inf
-    column0, column1 = _columns_with_cells(table, row0, row1, column0, column1)
-    row0, row1 = _rows_with_cells(table, row0, row1, column0, column1)
+    column0, column1 = columns_with_cells(table, row0, row1, column0, column1)
+    row0, row1 = rows_with_cells(table, row0, row1, column0, column1)
     xl = max(xl, edge_below(column0, resolution))
     xu = min(xu, edge_above(column1, resolution))
     yl = max(yl, edge_below(row0, resolution))

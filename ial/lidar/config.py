@@ -97,7 +97,7 @@ class LocalizerConfig:
     """
 
     bounds: Bounds = field(default_factory=Bounds)
-    outliers: int | float = 0.2
+    outliers: int | float = 0.12
     precision: Precision = field(default_factory=Precision)
     max_boxes: int = 4_000_000
     max_beams: int = 180

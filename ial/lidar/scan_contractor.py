@@ -10,6 +10,7 @@ from ial.contractors.threads import run
 from ial.lidar.beams import Beams
 from ial.lidar.corners import OFFSET, corners
 from ial.lidar.end_points import NEAR, relative_bounds
+from ial.lidar.narrowing import narrow
 from ial.maps.cell_index import CellIndex
 
 
@@ -60,11 +61,31 @@ def _test(start, stop, order, lower, upper, ends, directions, errors, q, map_err
         keep[row] = not near or _fits(xl, yl, xu, yu, bounds, q, flat, row_limit, column_limit)
 
 
+@kernel
+def _narrow(start, stop, order, lower, upper, ends, directions, errors, q, map_error, resolution, table):  # type: ignore[no-untyped-def]
+    bounds = np.empty((len(ends), 4))
+    low = np.empty((2, len(ends)))
+    high = np.empty((2, len(ends)))
+    for at in range(start, stop):
+        row = order[at]
+        relative_bounds(lower[row, 2], upper[row, 2], ends, directions, errors, map_error, resolution, bounds)
+        xl = lower[row, 0] / resolution
+        yl = lower[row, 1] / resolution
+        xu = upper[row, 0] / resolution
+        yu = upper[row, 1] / resolution
+        if min(xl, yl) < -NEAR or max(xu, yu) > NEAR:
+            continue
+        xl, yl, xu, yu = narrow(xl, yl, xu, yu, bounds, q, table, low, high)
+        lower[row, 0] = max(lower[row, 0], xl * resolution)
+        lower[row, 1] = max(lower[row, 1], yl * resolution)
+        upper[row, 0] = min(upper[row, 0], xu * resolution)
+        upper[row, 1] = min(upper[row, 1], yu * resolution)
+
+
 class ScanContractor:
     """Poses (x, y, θ) of the robot, in the grid's frame, from which at most q of the used beams are bad.
 
-    A beam is good at a pose if some point of its error region lies within `map_error_m` of a closed occupied cell. Boxes in which more than
-    q beams are bad everywhere are emptied; the others are returned as they are.
+    A beam is good at a pose if some point of its error region lies within `map_error_m` of a closed occupied cell.
 
     Parameters
     ----------
@@ -95,5 +116,12 @@ class ScanContractor:
         return keep
 
     def contract(self, boxes: Boxes) -> Boxes:
-        """Return the boxes, those that hold no consistent pose emptied."""
-        return boxes.where(self.fits(boxes))
+        """Return the boxes, their positions narrowed by relaxed intersection over the beams; those without a consistent pose are emptied."""
+        keep = self.fits(boxes)
+        lower, upper = boxes.lower.copy(), boxes.upper.copy()
+        beams = self.beams
+        if beams.informative:
+            evidence = (beams.ends, beams.directions, beams.errors, beams.outliers, self.map_error_m)
+            order = np.flatnonzero(keep)
+            run(_narrow, len(order), order, lower, upper, *evidence, self.occupied.resolution, self.occupied.table, minimum=8)
+        return Boxes(lower, upper).where(keep & (lower <= upper).all(axis=1))

@@ -18,7 +18,7 @@ from ial.particles.likelihood_field import BeamModel, LikelihoodField, score
 from ial.pose import Pose, wrap
 
 _ROUNDS = 5  # of refinement; each halves the step
-_SHORTLIST = 2000  # lattice poses among which candidates are chosen
+_SHORTLIST = 1000  # lattice poses among which candidates are chosen
 
 
 @dataclass(frozen=True)

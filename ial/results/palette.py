@@ -8,6 +8,7 @@ STATUS_COLOURS = {
     "blind": "#5c0a12",
 }
 PREDICTION = "#8d99ae"
+FOUND = "#c1121f"
 PATH = "#0b2545"
 TRUTH = "#d1495b"
 ON_WALL = "#1b9e77"

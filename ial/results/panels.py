@@ -6,55 +6,66 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import LineCollection, PathCollection, PolyCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from ial.contractors.boxes import Boxes
 from ial.datasets.recording import Step
 from ial.datasets.scan import BeamClass
+from ial.lidar.estimate import Hypothesis
 from ial.maps.cell_index import CellIndex
 from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 from ial.results.enclosures import Enclosure
 from ial.results.map_layer import MapLayer, View
-from ial.results.palette import EDGE, OFF_WALL, ON_WALL, PATH, STATUS_COLOURS, TRUTH
+from ial.results.palette import EDGE, FOUND, OFF_WALL, ON_WALL, PATH, PREDICTION, STATUS_COLOURS, TRUTH
 
 _HULLS = 50_000  # more are thinned out evenly
 _RINGS = 200  # more hypotheses of the first scan are not ringed
 _BAR_PIXELS = 1500  # of the status over time; more scans than that share a bar
 
+_DASHES = (0, (4, 2))
+
 FloatArray = npt.NDArray[np.float64]
+Key = Line2D | Patch | PathCollection
 
 
 def draw_walk(axes: Axes, layer: MapLayer, walk: Sequence[Enclosure], truth: Sequence[Pose]) -> None:
     """Draw the hull of every hypothesis of every scan, the path of the localized robot, and the reference if there is one."""
     layer.draw(axes)
-    rows = [(STATUS_COLOURS[scan.status], each) for scan in walk for each in scan.hypotheses if not each.prediction]
-    rows = rows[:: max(1, len(rows) // _HULLS)]
-    for certain in (False, True):
-        chosen = [(colour, each) for colour, each in rows if (colour == STATUS_COLOURS["localized"]) is certain]
-        corners = [
-            [(each.x[0], each.y[0]), (each.x[1], each.y[0]), (each.x[1], each.y[1]), (each.x[0], each.y[1])] for _, each in chosen
-        ]
-        colours = [colour for colour, _ in chosen]
-        alpha = 0.30 if certain else 0.16
-        axes.add_collection(PolyCollection(corners, facecolors=colours, edgecolors="none", alpha=alpha, zorder=2 + certain), autolim=False)
-        edges = PolyCollection(corners, facecolors="none", edgecolors=colours, linewidths=0.4, alpha=0.6, zorder=2 + certain)
-        axes.add_collection(edges, autolim=False)
+    carried = [each for scan in walk for each in scan.hypotheses if each.prediction]
+    found = [(scan.status, each) for scan in walk for each in scan.hypotheses if not each.prediction]
+    _draw_hulls(axes, carried, [PREDICTION] * len(carried), alpha=0.0, zorder=1)
+    for certain in (False, True):  # the certain ones above all others
+        rows = [(status, each) for status, each in found if (status == "localized") is certain]
+        colours = [STATUS_COLOURS[status] for status, _ in rows]
+        _draw_hulls(axes, [each for _, each in rows], colours, alpha=0.30 if certain else 0.16, zorder=2 + certain)
     pieces = _pieces(walk)
     axes.add_collection(LineCollection(pieces, colors="white", linewidths=3.2, zorder=5), autolim=False)
     axes.add_collection(LineCollection(pieces, colors=PATH, linewidths=1.6, zorder=6), autolim=False)
     if truth:
-        axes.plot([pose.x for pose in truth], [pose.y for pose in truth], color=TRUTH, linewidth=1.1, linestyle=(0, (4, 2)), zorder=7)
+        axes.plot([pose.x for pose in truth], [pose.y for pose in truth], color=TRUTH, linewidth=1.1, linestyle=_DASHES, zorder=7)
     last = next((scan.pose for scan in reversed(walk) if scan.pose is not None), None)
     if last is not None:
         _draw_robot(axes, last)
-    keys: list[Line2D | Patch] = [Line2D([], [], color=PATH, linewidth=1.6, label="path")] if pieces else []
-    keys += [Line2D([], [], color=TRUTH, linestyle=(0, (4, 2)), label="reference")] if truth else []
-    found = {scan.status for scan in walk}
-    keys += [Patch(color=colour, alpha=0.6, label=f"enclosures, {name}") for name, colour in STATUS_COLOURS.items() if name in found]
-    _finish(axes, f"every pose that the data allow, for each of {len(walk)} scans", keys)
+    statuses = {status for status, _ in found}
+    keys: list[Key] = [Line2D([], [], color=PATH, linewidth=1.6, label="path")] if pieces else []
+    keys += [Line2D([], [], color=TRUTH, linestyle=_DASHES, label="reference")] if truth else []
+    keys += [Patch(color=colour, alpha=0.6, label=name) for name, colour in STATUS_COLOURS.items() if name in statuses]
+    keys += [Patch(facecolor="none", edgecolor=PREDICTION, label="rejected prediction")] if carried else []
+    _finish(axes, f"enclosures of {len(walk)} scans", keys)
+
+
+def _draw_hulls(axes: Axes, hypotheses: Sequence[Hypothesis], colours: Sequence[str], alpha: float, zorder: int) -> None:
+    """Draw the hulls on the floor, filled with some opacity; where there are too many to see, they are thinned out evenly."""
+    thinned = max(1, len(hypotheses) // _HULLS)
+    corners = [[(x0, y0), (x1, y0), (x1, y1), (x0, y1)] for x0, x1, y0, y1 in ((*each.x, *each.y) for each in hypotheses[::thinned])]
+    chosen = colours[::thinned]
+    if alpha:
+        axes.add_collection(PolyCollection(corners, facecolors=chosen, edgecolors="none", alpha=alpha, zorder=zorder), autolim=False)
+    edges = PolyCollection(corners, facecolors="none", edgecolors=chosen, linewidths=0.4, alpha=0.6, zorder=zorder)
+    axes.add_collection(edges, autolim=False)
 
 
 def _pieces(walk: Sequence[Enclosure]) -> list[FloatArray]:
@@ -71,13 +82,13 @@ def _pieces(walk: Sequence[Enclosure]) -> list[FloatArray]:
 def draw_first(axes: Axes, layer: MapLayer, boxes: Boxes, walk: Sequence[Enclosure]) -> None:
     """Draw the answer to the first scan, which is a search of the whole map unless the start was given."""
     layer.draw(axes)
-    layer.draw_boxes(axes, boxes, STATUS_COLOURS["lost"])
+    layer.draw_boxes(axes, boxes, FOUND)
     hypotheses = walk[0].hypotheses if walk else ()
     if len(hypotheses) <= _RINGS:
         for pose in (each.centre for each in hypotheses):
-            axes.plot([pose.x], [pose.y], "o", markersize=13, fillstyle="none", color=STATUS_COLOURS["lost"], markeredgewidth=0.9, zorder=4)
+            axes.plot([pose.x], [pose.y], "o", markersize=13, fillstyle="none", color=FOUND, markeredgewidth=0.9, zorder=4)
     count = "1 hypothesis" if len(hypotheses) == 1 else f"{len(hypotheses)} hypotheses"
-    _finish(axes, f"the first scan alone: {count}, {len(boxes)} boxes", [])
+    _finish(axes, f"after the first scan: {count}, {len(boxes)} boxes", [])
 
 
 def draw_scan(axes: Axes, layer: MapLayer, grid: OccupancyGrid, scan: tuple[Step, Pose] | None, walls_m: float) -> None:
@@ -93,10 +104,12 @@ def draw_scan(axes: Axes, layer: MapLayer, grid: OccupancyGrid, scan: tuple[Step
     layer.draw(axes, _around(points, pose))
     rays = np.stack([np.broadcast_to((laser.x, laser.y), points.shape), points], axis=1)
     axes.add_collection(LineCollection(list(rays), colors=EDGE, linewidths=0.25, alpha=0.45, zorder=3), autolim=False)
-    for chosen, colour, label in ((on, ON_WALL, "within the bounds of a wall"), (~on, OFF_WALL, "elsewhere")):
-        axes.scatter(points[chosen, 0], points[chosen, 1], s=9, color=colour, linewidths=0, zorder=5, label=f"{chosen.sum()} hits {label}")
+    keys = [
+        axes.scatter(points[chosen, 0], points[chosen, 1], s=9, color=colour, linewidths=0, zorder=5, label=f"{chosen.sum()} hits {where}")
+        for chosen, colour, where in ((on, ON_WALL, "on the walls"), (~on, OFF_WALL, "elsewhere"))
+    ]
     _draw_robot(axes, pose)
-    _finish(axes, f"scan {step.index} laid on the walls", list(axes.get_legend_handles_labels()[0]))
+    _finish(axes, f"scan {step.index} laid on the walls", keys)
 
 
 def _end_points(step: Step, pose: Pose) -> FloatArray:
@@ -141,7 +154,7 @@ def draw_status(axes: Axes, walk: Sequence[Enclosure]) -> None:
     axes.spines[["top", "right"]].set_visible(False)
     axes.tick_params(labelsize=8, colors="#444444")
     axes.set_title("hypotheses left by each scan", loc="left", fontsize=10)
-    axes.legend(handles=keys, loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=len(keys), fontsize=8, frameon=False)
+    _add_legend(axes, keys)
 
 
 def _draw_robot(axes: Axes, pose: Pose) -> None:
@@ -152,11 +165,17 @@ def _draw_robot(axes: Axes, pose: Pose) -> None:
     axes.plot([pose.x], [pose.y], marker=marker, markersize=17, color=PATH, markeredgecolor="white", markeredgewidth=1.0, zorder=8)
 
 
-def _finish(axes: Axes, title: str, keys: Sequence[object]) -> None:
+def _finish(axes: Axes, title: str, keys: Sequence[Key]) -> None:
     axes.set_title(title, loc="left", fontsize=10)
     axes.tick_params(labelsize=8, colors="#444444")
     axes.locator_params(nbins=8)
     for spine in axes.spines.values():
         spine.set_color(EDGE)
+    _add_legend(axes, keys)
+
+
+def _add_legend(axes: Axes, keys: Sequence[Key]) -> None:
+    """Put the keys above the axes at the right, where they hide nothing."""
     if keys:
-        axes.legend(handles=list(keys), loc="lower right", fontsize=8, framealpha=0.9, edgecolor=EDGE)
+        legend = axes.legend(handles=list(keys), loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=len(keys), fontsize=8, frameon=False)
+        legend.borderaxespad = legend.borderpad = 0.15

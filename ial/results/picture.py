@@ -1,24 +1,23 @@
 """`Picture`: a run at a glance."""
 
-import math
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
-import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from ial.contractors.boxes import Boxes
 from ial.datasets.recording import Step
-from ial.datasets.trajectory import Trajectory
 from ial.lidar.estimate import Estimate
 from ial.maps.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
 from ial.results.enclosures import Enclosure
 from ial.results.map_layer import MapLayer
 from ial.results.panels import draw_first, draw_scan, draw_status, draw_walk
+from ial.results.wording import pose_text
 
 _DPI = 120
 _WIDTH_IN = 14.0
@@ -33,7 +32,7 @@ Box = tuple[float, float, float, float]
 
 @dataclass(frozen=True)
 class _Page:
-    """Where the walk, the first step, the scan and the status stand: boxes (left, top, width, height) in inches from the upper left corner."""
+    """Where the walk, the first step, the scan and the status stand: left, top, width and height in inches from the upper left corner."""
 
     height: float
     boxes: tuple[Box, Box, Box, Box]
@@ -89,10 +88,8 @@ class Picture(AbstractContextManager["Picture"]):
         The title.
     walls_m
         How far a beam that counts as explained may end from an occupied cell.
-    truth
-        Reference poses to draw beside the path.
-    truth_is_laser
-        Whether they are those of the laser, not of the base.
+    reference
+        Returns ``T_map_base`` of a reference at a scan, to draw beside the path, or None where it has none.
     """
 
     def __init__(
@@ -101,15 +98,13 @@ class Picture(AbstractContextManager["Picture"]):
         grid: OccupancyGrid,
         name: str,
         walls_m: float = 0.1,
-        truth: Trajectory | None = None,
-        truth_is_laser: bool = False,
+        reference: Callable[[Step], Pose | None] | None = None,
     ) -> None:
         self._path = path
         self._grid = grid
         self._name = name
         self._walls_m = walls_m
-        self._reference = truth
-        self._reference_is_laser = truth_is_laser
+        self._reference = reference
         self._walk: list[Enclosure] = []
         self._truth: list[Pose] = []
         self._first: Boxes | None = None
@@ -122,9 +117,9 @@ class Picture(AbstractContextManager["Picture"]):
             self._first = estimate.poses.boxes
         if estimate.pose is not None:
             self._scan = step, estimate.pose
-        at = None if self._reference is None else self._reference.at(step.stamp_ns)
+        at = None if self._reference is None else self._reference(step)
         if at is not None:
-            self._truth.append(at @ step.scan.mounting.pose.inverse() if self._reference_is_laser else at)
+            self._truth.append(at)
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
         if kind is None:
@@ -156,14 +151,4 @@ class Picture(AbstractContextManager["Picture"]):
         last = next((each for each in reversed(self._walk) if each.pose is not None), None)
         if last is None or last.pose is None:
             return f"never localized in {len(self._walk)} scans"
-        position, heading = last.hypotheses[0].half_widths
-        return (
-            f"scan {last.index}: x {last.pose.x:.2f} m, y {last.pose.y:.2f} m, θ {math.degrees(last.pose.theta):.1f}°, "
-            f"each within ±{_up(position)} m and ±{_up(math.degrees(heading), 1)}°"
-        ).replace("-", "−")
-
-
-def _up(value: float, digits: int = 2) -> str:
-    """Return a number rounded up, so that what is said of a bound stays true."""
-    scale = 10.0**digits
-    return f"{np.ceil(value * scale) / scale:.{digits}f}"
+        return f"scan {last.index}: {pose_text(last.pose, last.hypotheses[0])}"

@@ -64,7 +64,8 @@ class ResultFolder(AbstractContextManager["ResultFolder"]):
     def attach(self, *sinks: Sink) -> None:
         """Feed these sinks from now on, and close them at the end."""
         for sink in sinks:
-            self._sinks.append(self._stack.enter_context(sink))
+            self._stack.enter_context(sink)
+            self._sinks.append(sink)
 
     def add(self, step: Step, estimate: Estimate) -> None:
         """Hand one scan to every sink.
@@ -88,6 +89,18 @@ class ResultFolder(AbstractContextManager["ResultFolder"]):
         """
         with self._trouble():
             self.place(name).write_text(text, encoding="utf-8")
+
+    def close(self) -> None:
+        """Let every sink complete its file; the files get their names at the end of the block.
+
+        Raises
+        ------
+        OutputError
+            If one cannot write.
+        """
+        with self._trouble():
+            self._stack.close()
+        self._sinks.clear()
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
         try:

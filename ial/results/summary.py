@@ -1,10 +1,11 @@
 """`Summary`: a run in numbers."""
 
+import contextlib
 import platform
 import time
 from collections import Counter
 from collections.abc import Mapping
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 import numpy as np
@@ -33,6 +34,13 @@ class Summary:
         The configuration of the localizer.
     options
         What else was chosen: files, which scans, and so on.
+
+    Attributes
+    ----------
+    last
+        The last processed scan.
+    first_localized
+        The index of the first localized scan.
     """
 
     def __init__(self, recording: Recording, grid: OccupancyGrid, config: LocalizerConfig, options: Mapping[str, Any]) -> None:
@@ -48,13 +56,13 @@ class Summary:
         self._beams: set[int] = set()
         self._uninformative = 0
         self._first: Step | None = None
-        self._first_localized: int | None = None
+        self.first_localized: int | None = None
         self.last: Enclosure | None = None
 
     @property
     def localized(self) -> bool:
         """Whether the robot was localized at any scan."""
-        return self._first_localized is not None
+        return self.first_localized is not None
 
     @property
     def statuses(self) -> dict[str, int]:
@@ -72,8 +80,8 @@ class Summary:
         self._uninformative += estimate.uninformative
         if estimate.limited:
             self._limits[estimate.limited] += 1
-        if estimate.status == "localized" and self._first_localized is None:
-            self._first_localized = step.index
+        if estimate.status == "localized" and self.first_localized is None:
+            self.first_localized = step.index
 
     def as_dict(self, measures: Mapping[str, Any] | None = None) -> dict[str, Any]:
         """Return everything as plain values that JSON can hold.
@@ -85,7 +93,7 @@ class Summary:
         """
         return {
             "localized": self.localized,
-            "first_localized_scan": self._first_localized,
+            "first_localized_scan": self.first_localized,
             "last": None if self.last is None else _last(self.last),
             "scans": self._scans(),
             "times": self._times(),
@@ -94,7 +102,7 @@ class Summary:
             "map": self._grid.describe(),
             "config": config_record(self._config),
             "options": self._options,
-            "versions": {"ial": version("ial"), "python": platform.python_version(), **{name: version(name) for name in _LIBRARIES}},
+            "versions": {"ial": version("ial"), "python": platform.python_version(), **_versions()},
             "platform": platform.platform(),
         }
 
@@ -139,6 +147,15 @@ class Summary:
             "beams": sorted(self._beams),
             "mounting": {"x": mounting.x, "y": mounting.y, "yaw": mounting.yaw, "upside_down": mounting.upside_down},
         }
+
+
+def _versions() -> dict[str, str | None]:
+    """Return the versions of the libraries that results depend on; None for one that is installed under another name."""
+    found: dict[str, str | None] = dict.fromkeys(_LIBRARIES)
+    for name in _LIBRARIES:
+        with contextlib.suppress(PackageNotFoundError):
+            found[name] = version(name)
+    return found
 
 
 def _last(enclosure: Enclosure) -> dict[str, Any]:

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+
 from ial.datasets.in_memory import InMemoryRecording
 from ial.datasets.motion import ErrorBound, MotionBounds
 from ial.datasets.scan import Mounting

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from ial.contractors.boxes import FloatArray
 from ial.contractors.elementary import PI_UPPER
 from ial.lidar.end_points import MARGIN, NEAR, REACH, relative_bounds
@@ -21,11 +22,15 @@ errors = st.sampled_from([0.0, 1e-9]) | st.floats(0.0, 0.5)
 resolutions = st.sampled_from([0.02, 0.05, 0.1, 1.0])
 
 
-def bounds_of(lower: float, upper: float, end: tuple[float, float], direction: float, error: tuple[float, float], **of_map: float) -> FloatArray:
+def bounds_of(
+    lower: float, upper: float, end: tuple[float, float], direction: float, error: tuple[float, float], **of_map: float
+) -> FloatArray:
     """The four bounds of one beam, whose direction is given as an angle."""
     out = np.empty((1, 4))
     unit = np.array([[math.cos(direction), math.sin(direction)]])
-    relative_bounds(lower, upper, np.array([end]), unit, np.array([error]), of_map.get("map_error", 0.0), of_map.get("resolution", 0.05), out)
+    relative_bounds(
+        lower, upper, np.array([end]), unit, np.array([error]), of_map.get("map_error", 0.0), of_map.get("resolution", 0.05), out
+    )
     return out[0]
 
 

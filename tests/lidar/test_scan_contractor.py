@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+
 from ial.contractors.boxes import Boxes
 from ial.contractors.threads import set_threads
 from ial.lidar.beams import Beams
@@ -88,7 +89,13 @@ def test_an_end_point_that_only_touches_a_cell_is_good() -> None:
     mask[4, 4] = True
     index = type(world.index())(mask, 0.25)
     one = np.ones((1, 2))
-    for at, touches in [((1.0, 1.0), True), ((1.25, 1.25), True), ((1.0, 1.25), True), ((1.0 - 1e-6, 1.1), False), ((1.1, 1.25 + 1e-6), False)]:
+    for at, touches in [
+        ((1.0, 1.0), True),
+        ((1.25, 1.25), True),
+        ((1.0, 1.25), True),
+        ((1.0 - 1e-6, 1.1), False),
+        ((1.1, 1.25 + 1e-6), False),
+    ]:
         beams = Beams(0.0 * one, one * [1.0, 0.0], 0.0 * one, 0)
         point = np.array([[*at, 0.0]])
         assert ScanContractor(beams, index, 0.0).fits(Boxes(point, point))[0] == touches

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+
 from ial.contractors.boxes import Boxes, FloatArray
 from ial.datasets.scan import BeamClass, LaserScan, Mounting
 from ial.lidar.beams import Beams, select_beams

@@ -55,10 +55,10 @@ def test_origin_in_block_style_and_a_yaw_beyond_a_turn(tmp_path: Path) -> None:
 
 
 def test_paths_of_the_image(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("HOME", "/home/someone")
+    monkeypatch.setenv("HOME", str(tmp_path / "someone"))
     assert read_metadata(write(tmp_path, image="sub/a map.png")).image == tmp_path / "sub" / "a map.png"
     assert read_metadata(write(tmp_path, image="/elsewhere/map.pgm")).image == Path("/elsewhere/map.pgm")
-    assert read_metadata(write(tmp_path, image="~/maps/map.pgm")).image == Path("/home/someone/maps/map.pgm")
+    assert read_metadata(write(tmp_path, image="~/maps/map.pgm")).image == tmp_path / "someone" / "maps" / "map.pgm"
     with pytest.raises(MapError, match="home folder"):
         read_metadata(write(tmp_path, image="~nobody-of-this-name/map.pgm"))
 

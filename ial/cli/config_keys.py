@@ -1,0 +1,103 @@
+"""`ConfigKeys`: every key of a configuration file, with its unit and its range."""
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PlainValidator
+
+from ial.datasets.motion import ErrorBound, MotionBounds
+from ial.lidar.config import Bounds, LocalizedSize, LocalizerConfig, Precision
+
+
+def _number(value: Any) -> Any:
+    """Refuse what Python takes for a number though nobody means one; YAML leaves 1e-3 a text, which is meant as one."""
+    if isinstance(value, bool):
+        raise ValueError("give a number, not a truth value")
+    return value
+
+
+def _outliers(value: Any) -> int | float:
+    """Keep the difference between 1, one beam, and 1.0, all of them."""
+    text = value.strip() if isinstance(value, str) else value
+    try:
+        number = int(text) if isinstance(text, str) and text.isdigit() else float(text) if isinstance(text, str) else text
+    except ValueError:
+        number = None
+    if isinstance(number, bool) or not isinstance(number, int | float):
+        raise ValueError("give a whole number of beams, or a fraction of them from 0.0 to 1.0")
+    return number
+
+
+Bound = Annotated[float, BeforeValidator(_number), Field(ge=0.0, allow_inf_nan=False)]
+Size = Annotated[float, BeforeValidator(_number), Field(gt=0.0, allow_inf_nan=False)]
+Count = Annotated[int, BeforeValidator(_number), Field(ge=1)]
+
+
+class _Keys(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class ErrorBoundKeys(_Keys):
+    """``base + per_metre · |translation| + per_radian · |rotation|`` of one recorded odometry step."""
+
+    base: Bound = Field(description="m for a translation, rad for a rotation")
+    per_metre: Bound = Field(description="added for each metre travelled: m/m or rad/m")
+    per_radian: Bound = Field(description="added for each radian turned: m/rad or rad/rad")
+
+
+class MotionKeys(_Keys):
+    """How far one recorded odometry step may be from the truth."""
+
+    translation: ErrorBoundKeys = Field(description="each of dx and dy, m")
+    rotation: ErrorBoundKeys = Field(description="dθ, rad")
+
+
+class SizeKeys(_Keys):
+    """A size in space and in heading."""
+
+    position_m: Size = Field(description="along x and y, m")
+    heading_rad: Size = Field(description="of the heading, rad")
+
+
+class ConfigKeys(_Keys):
+    """Every key of a configuration file."""
+
+    range_error_m: Bound = Field(description="bound of a good beam's range error, m")
+    bearing_error_rad: Bound = Field(description="bound of its bearing error, rad")
+    map_error_m: Bound = Field(description="how far an obstacle may be from its occupied cells, m")
+    motion: MotionKeys = Field(description="bounds of the odometry")
+    outliers: Annotated[int | float, PlainValidator(_outliers)] = Field(description="how many beams may be bad: a number or a fraction")
+    precision: SizeKeys = Field(description="the widths below which a box is not bisected")
+    max_boxes: Count = Field(description="a search with more boxes ends with a coarser answer")
+    max_beams: Count = Field(description="how many beams of a scan are used at most")
+    domain: Literal["free", "free_or_unknown"] = Field(description="where the base may be")
+    localized_size: SizeKeys = Field(description="half-widths up to which a single hypothesis counts as localized")
+    recovery: Literal["union", "restart"] = Field(description="what follows a rejection")
+    max_seconds: Size | None = Field(description="a limit on the time of one search, s; null for none")
+
+    def config(self) -> LocalizerConfig:
+        """Return the configuration of a localizer.
+
+        Raises
+        ------
+        ConfigError
+            If a value cannot be used.
+        """
+        return LocalizerConfig(
+            bounds=Bounds(
+                self.range_error_m,
+                self.bearing_error_rad,
+                self.map_error_m,
+                MotionBounds(
+                    ErrorBound(**self.motion.translation.model_dump()),
+                    ErrorBound(**self.motion.rotation.model_dump()),
+                ),
+            ),
+            outliers=self.outliers,
+            precision=Precision(**self.precision.model_dump()),
+            max_boxes=self.max_boxes,
+            max_beams=self.max_beams,
+            domain=self.domain,
+            localized_size=LocalizedSize(**self.localized_size.model_dump()),
+            recovery=self.recovery,
+            max_seconds=self.max_seconds,
+        )

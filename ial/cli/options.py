@@ -1,0 +1,31 @@
+"""Options that several commands share."""
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from ial.pose import Pose
+
+RecordingPath = Annotated[
+    Path, typer.Argument(metavar="RECORDING", help="A ROS 1 .bag, a ROS 2 folder, .db3 or .mcap, or a CARMEN log (plain or .gz).")
+]
+ScanTopic = Annotated[str | None, typer.Option(metavar="TOPIC", help="The laser scans, if there are several topics.")]
+OdomTopic = Annotated[
+    str | None, typer.Option(metavar="TOPIC", help="The odometry, if there are several topics; /tf takes odom → base_link from tf.")
+]
+LaserPose = Annotated[
+    tuple[float, float, float] | None,
+    typer.Option(metavar="X Y YAW", help="Where the laser sits in base_link, in metres and radians, in place of what tf_static says."),
+]
+Semantics = Annotated[
+    Literal["nav2", "ros1"], typer.Option("--map-semantics", help="Whose rules turn pixels into free, occupied and unknown.")
+]
+MapTopic = Annotated[str | None, typer.Option(metavar="TOPIC", help="The map's topic, if MAP is a recording with several.")]
+Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")]
+ConfigPath = Annotated[Path | None, typer.Option("--config", metavar="FILE", help="A YAML file with the configuration.")]
+
+
+def pose_of(numbers: tuple[float, float, float] | None) -> Pose | None:
+    """Return the pose that an option gives as three numbers."""
+    return None if numbers is None else Pose(*numbers)
