@@ -2,6 +2,7 @@
 
 import numpy as np
 import numpy.typing as npt
+
 from ial.contractors.boxes import Boxes
 from ial.contractors.groups import group_rows
 from ial.contractors.kernels import kernel

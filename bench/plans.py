@@ -1,11 +1,14 @@
-"""`plan_and_scans`: the simulated input of the benchmarks, a floor plan with scans at random places in it."""
+"""`Scene`: the simulated input of the benchmarks, a scan at a random place in a random floor plan."""
 
 import math
+from collections.abc import Iterator
+from dataclasses import dataclass
 
 from ial.datasets.motion import MotionBounds
 from ial.datasets.scan import LaserScan
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.datasets.walk import random_walk
+from ial.lidar.config import Bounds, LocalizerConfig
 from ial.maps.floor_plan import floor_plan
 from ial.maps.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
@@ -13,16 +16,25 @@ from ial.pose import Pose
 BEAMS = 180
 OUTLIERS = BEAMS // 10
 RANGE_ERROR_M = 0.05
+CONFIG = LocalizerConfig(bounds=Bounds(range_error_m=RANGE_ERROR_M, bearing_error_rad=0.0, map_error_m=0.0), outliers=OUTLIERS)
 
 
-def plan_and_scans(width_m: float, height_m: float, resolution: float, count: int) -> tuple[OccupancyGrid, list[LaserScan], list[Pose]]:
-    """Return a floor plan, scans all around with up to `OUTLIERS` of `BEAMS` wrong, and the true poses."""
-    grid = floor_plan(width_m, height_m, resolution, seed=1)
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """A map, a scan, and the pose of the robot in the map frame."""
+
+    grid: OccupancyGrid
+    scan: LaserScan
+    truth: Pose
+
+
+def scenes(width_m: float, height_m: float, resolution: float, plans: int, scans: int) -> Iterator[Scene]:
+    """Yield scans all around, of `BEAMS` beams with up to `OUTLIERS` wrong, in floor plans of one size; `scans` in each plan."""
     lidar = Lidar(beams=BEAMS, angle_min=-math.pi, angle_increment=2.0 * math.pi / BEAMS)
     errors = SensorErrors(range_error_m=RANGE_ERROR_M, bearing_error_rad=0.0, outliers=OUTLIERS)
-    poses = [random_walk(grid, 1, seed)[0] for seed in range(count)]
-    scans = []
-    for seed, pose in enumerate(poses):
-        (reading,) = simulate(grid, [pose], lidar, errors, MotionBounds(), seed).recording.readings()
-        scans.append(reading.scan)
-    return grid, scans, poses
+    for plan in range(plans):
+        grid = floor_plan(width_m, height_m, resolution, plan)
+        for seed in range(scans * plan, scans * (plan + 1)):
+            (pose,) = random_walk(grid, 1, seed)
+            (reading,) = simulate(grid, [pose], lidar, errors, MotionBounds(), seed).recording.readings()
+            yield Scene(grid, reading.scan, pose)

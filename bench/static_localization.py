@@ -2,150 +2,194 @@
 
 import json
 import math
+import pickle
 import resource
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
+from collections import Counter
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
-from report import Report, options  # the process that starts the cases stays small: a child's peak memory counts from its parent's
+from report import Report, options  # ial is loaded in the processes of the cases: a child's peak memory is at least its parent's
 
-CASES = [(10.0, 4.7, 0.02), (10.0, 10.0, 0.05), (50.0, 50.0, 0.05), (100.0, 100.0, 0.05), (400.0, 400.0, 0.05)]
+
+@dataclass(frozen=True)
+class Case:
+    """Maps of one size, and how many of them, with how many scans in each."""
+
+    width_m: float
+    height_m: float
+    resolution: float
+    plans: int
+    scans: int = 1
+
+    def __str__(self) -> str:
+        return f"{self.width_m:g} × {self.height_m:g} m, {100.0 * self.resolution:g} cm"
+
+    @property
+    def area_m2(self) -> float:
+        """The area of the map."""
+        return self.width_m * self.height_m
+
+
+CASES = [
+    Case(10.0, 4.7, 0.02, 20),
+    Case(10.0, 10.0, 0.05, 20),
+    Case(50.0, 50.0, 0.05, 40),
+    Case(100.0, 100.0, 0.05, 16),
+    Case(400.0, 400.0, 0.05, 1, 4),
+]
 GROWTH = CASES[2:]  # the maps from which the exponent is taken
-SCANS = 5
-SLOW_S = 1.0  # what takes longer than this is timed once
-ABOUT = (
-    "One scan of 180 beams all around, up to 10 % of them wrong, no prior: every pose on the whole map. Floor plans of `ial.maps.floor_plan`; "
-    f"{SCANS} scans at random places each, medians over the scans. Bounds: `range_error_m` 0.05 and no other, 18 outliers, default precision; "
-    "simulated errors are uniform within these bounds. Each map runs in a process of its own, kernels compiled beforehand. *Memory* is the "
-    "peak of that process (`getrusage`), in brackets the part that was there before the first search: Python, the map and its tables."
-)
-
-
-def case_name(width: float, height: float, resolution: float) -> str:
-    """Return how a case is called."""
-    return f"{width:g} × {height:g} m, {100.0 * resolution:g} cm"
+BRUTE_M2 = 100.0  # the brute-force search runs on maps of at most this size
+SLOW_S = 0.2  # what takes longer is timed once
+ABOUT = """\
+One scan of 180 beams all around, up to 10 % of them wrong, no prior: every pose on the whole map. Random floor plans, random places; what
+a single place costs varies by a factor of two, so small maps are many. Bounds: `range_error_m` 0.05 and no other, 18 outliers, default
+precision; simulated errors are uniform within these bounds. Nodes are means, times are medians over the scans. Each size runs in a process
+of its own, kernels compiled beforehand. *Memory* is the peak of that process (`getrusage`), in brackets what it was before the first
+search: Python, the map and its tables."""
 
 
 def peak_mb() -> float:
     """Return the largest memory this process ever had, MB."""
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1024.0 if sys.platform != "darwin" else 1024.0**2)
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1024.0**2 if sys.platform == "darwin" else 1024.0)
 
 
-def timed(work: Callable[[], Any]) -> tuple[float, Any]:
+def timed(work: Callable[[Any], Any], scan: Any) -> tuple[float, Any]:
     """Return the least time of three runs, or that of one if it is slow, in seconds; and the result."""
     times: list[float] = []
     while len(times) < 3 and sum(times) < SLOW_S:
         begun = time.perf_counter()
-        result = work()
+        result = work(scan)
         times.append(time.perf_counter() - begun)
     return min(times), result
 
 
-def run_case(width: float, height: float, resolution: float) -> dict[str, Any]:
-    """Localize and return what was measured, as plain values: one list entry for each scan."""
-    from ial.contractors.threads import available_threads, set_threads
-    from ial.lidar.config import Bounds, LocalizerConfig
+def draw(case: Case, file: Path) -> None:
+    """Simulate the scenes of a case into a file; this takes memory that the search does not."""
+    from plans import scenes
+
+    with file.open("wb") as out:
+        for scene in scenes(case.width_m, case.height_m, case.resolution, case.plans, case.scans):
+            pickle.dump(scene, out)
+
+
+def measure(scene: Any, config: Any, brute_force: bool) -> dict[str, Any]:
+    """Localize in one scene; return what was measured, as plain values."""
+    from ial.contractors.threads import set_threads
     from ial.lidar.localizer import Localizer
     from ial.particles.brute_force import BruteForce
-    from plans import OUTLIERS, RANGE_ERROR_M, plan_and_scans
 
-    config = LocalizerConfig(bounds=Bounds(RANGE_ERROR_M, 0.0, 0.0), outliers=OUTLIERS)
-    small, scans, _ = plan_and_scans(6.0, 6.0, 0.05, 1)
-    Localizer(small, config=config).locate(scans[0])  # loads the kernels
-    BruteForce(small).locate(scans[0])
-
-    grid, scans, truths = plan_and_scans(width, height, resolution, SCANS)
-    localizer = Localizer(grid, config=config)
-    brute = BruteForce(grid) if width * height <= 100.0 else None
-    found: dict[str, Any] = {"before_mb": peak_mb(), "threads": available_threads(), "scans": []}
-    for scan, truth in zip(scans, truths, strict=True):
-        row: dict[str, Any] = {}
-        for name, threads in (("one", 1), ("all", None)):
-            set_threads(threads)
-            row[f"{name}_s"], estimate = timed(lambda scan=scan: localizer.locate(scan))
-            row["peak_mb"] = peak_mb()
-            if brute is not None:
-                row[f"brute_{name}_s"], match = timed(lambda scan=scan: brute.locate(scan))
-        row |= {"nodes": estimate.poses.nodes, "hypotheses": len(estimate.hypotheses), "limited": estimate.limited}
-        row["contained"] = estimate.poses.contains(grid.pose_to_grid(truth))
-        row["best_off_m"] = min(math.hypot(each.centre.x - truth.x, each.centre.y - truth.y) for each in estimate.hypotheses)
+    localizer = Localizer(scene.grid, config=config)
+    brute = BruteForce(scene.grid) if brute_force else None
+    row: dict[str, Any] = {"before_mb": peak_mb()}
+    for name, threads in (("one", 1), ("all", None)):
+        set_threads(threads)
+        row[f"{name}_s"], estimate = timed(localizer.locate, scene.scan)
         if brute is not None:
-            row |= {"brute_poses": match.poses, "brute_off_m": math.hypot(match.best.pose.x - truth.x, match.best.pose.y - truth.y)}
-        found["scans"].append(row)
-    return found
+            row[f"brute_{name}_s"], match = timed(brute.locate, scene.scan)
+    row |= {"peak_mb": peak_mb(), "nodes": estimate.poses.nodes, "limited": estimate.limited}
+    row |= {"hypotheses": len(estimate.hypotheses), "contained": estimate.poses.contains(scene.grid.pose_to_grid(scene.truth))}
+    row["off_m"] = min(off(each.centre, scene.truth) for each in estimate.hypotheses)
+    if brute is not None:
+        row |= {"brute_poses": match.poses, "brute_off_m": off(match.best.pose, scene.truth)}
+    return row
 
 
-def in_own_process(case: tuple[float, float, float]) -> dict[str, Any]:
-    """Run a case in a process of its own."""
-    done = subprocess.run([sys.executable, __file__, "--case", *map(str, case)], stdout=subprocess.PIPE, text=True, check=True)
-    measured: dict[str, Any] = json.loads(done.stdout)
+def search(case: Case, file: Path) -> list[dict[str, Any]]:
+    """Localize in every scene of a file."""
+    from plans import CONFIG, scenes
+
+    for scene in scenes(6.0, 6.0, 0.05, 1, 1):
+        measure(scene, CONFIG, brute_force=True)  # loads the kernels
+    with file.open("rb") as source:
+        return [measure(pickle.load(source), CONFIG, case.area_m2 <= BRUTE_M2) for _ in range(case.plans * case.scans)]
+
+
+def off(pose: Any, truth: Any) -> float:
+    """Return the distance of two positions."""
+    return math.hypot(pose.x - truth.x, pose.y - truth.y)
+
+
+def in_own_processes(case: Case) -> list[dict[str, Any]]:
+    """Simulate in one process and localize in another."""
+    with tempfile.TemporaryDirectory() as folder:
+        command = [sys.executable, __file__, "--case", str(CASES.index(case)), "--scenes", str(Path(folder) / "scenes.pickle")]
+        subprocess.run([*command, "--draw"], check=True)
+        done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
+    measured: list[dict[str, Any]] = json.loads(done.stdout)
     return measured
 
 
-def median(found: dict[str, Any], name: str) -> float:
-    """Return the median of a value over the scans."""
-    return statistics.median(row[name] for row in found["scans"])
+def milliseconds(rows: list[dict[str, Any]], name: str) -> str:
+    """Return the median of a time over the scans."""
+    return f"{1e3 * statistics.median(row[name] for row in rows):.1f}"
 
 
-def row_of(case: tuple[float, float, float], found: dict[str, Any]) -> Iterator[str]:
+def line(case: Case, rows: list[dict[str, Any]]) -> Iterator[str]:
     """Yield the cells of a line of the table."""
-    scans = found["scans"]
-    yield case_name(*case)
-    yield f"{median(found, 'nodes'):,.0f}"
-    yield f"{1e3 * median(found, 'one_s'):.1f}"
-    yield f"{1e3 * median(found, 'all_s'):.1f}"
-    yield f"{max(row['peak_mb'] for row in scans):.0f} ({found['before_mb']:.0f})"
-    yield ", ".join(str(row["hypotheses"]) for row in scans)
-    yield f"{sum(row['contained'] for row in scans)} of {len(scans)}"
-    yield ", ".join(sorted({row["limited"] or "no" for row in scans}))
+    nodes = [row["nodes"] for row in rows]
+    yield str(case)
+    yield str(len(rows))
+    yield f"{statistics.fmean(nodes):,.0f} ({min(nodes):,}–{max(nodes):,})"
+    yield f"{statistics.fmean(nodes) / case.area_m2:.1f}"
+    yield milliseconds(rows, "one_s")
+    yield milliseconds(rows, "all_s")
+    yield f"{max(row['peak_mb'] for row in rows):.0f} ({rows[0]['before_mb']:.0f})"
+    yield ", ".join(f"{count} × {number}" for number, count in sorted(Counter(row["hypotheses"] for row in rows).items()))
+    yield f"{sum(row['contained'] for row in rows)} of {len(rows)}"
+    yield str(sum(bool(row["limited"]) for row in rows))
 
 
-def slope(points: list[tuple[float, float]]) -> float:
-    """Return the exponent p of the power law y = c·xᵖ that fits points best (least squares of the logarithms)."""
-    return statistics.linear_regression([math.log(x) for x, _ in points], [math.log(y) for _, y in points]).slope
+def exponent(found: dict[Case, list[dict[str, Any]]], name: str) -> float:
+    """Return the exponent of area with which the mean of a value grows best over `GROWTH` (least squares of the logarithms)."""
+    means = [statistics.fmean(row[name] for row in found[case]) for case in GROWTH]
+    return statistics.linear_regression([math.log(case.area_m2) for case in GROWTH], [math.log(mean) for mean in means]).slope
+
+
+def beside(case: Case, rows: list[dict[str, Any]]) -> Iterator[str]:
+    """Yield the cells of a line of the comparison."""
+    yield str(case)
+    yield f"{statistics.median(row['brute_poses'] for row in rows):,.0f}"
+    for times, distance in (("brute_{}_s", "brute_off_m"), ("{}_s", "off_m")):
+        yield milliseconds(rows, times.format("one"))
+        yield milliseconds(rows, times.format("all"))
+        yield f"{statistics.median(row[distance] for row in rows):.2f}, at most {max(row[distance] for row in rows):.2f}"
 
 
 def main() -> None:
     """Measure, print, and write."""
     parser = options(__doc__ or "")
-    parser.add_argument("--case", nargs=3, type=float, metavar=("WIDTH", "HEIGHT", "RESOLUTION"), help="one case, as JSON (used by itself)")
+    parser.add_argument("--case", type=int, metavar="NUMBER", help="run this case alone (used by itself)")
+    parser.add_argument("--scenes", type=Path, metavar="FILE", help="where the scenes of the case are (used by itself)")
+    parser.add_argument("--draw", action="store_true", help="only simulate them (used by itself)")
     chosen = parser.parse_args()
-    if chosen.case:
-        print(json.dumps(run_case(*chosen.case)))
+    if chosen.case is not None and chosen.draw:
+        draw(CASES[chosen.case], chosen.scenes)
+        return
+    if chosen.case is not None:
+        print(json.dumps(search(CASES[chosen.case], chosen.scenes)))
         return
     report = Report("Static localization", ABOUT)
-    found: dict[tuple[float, float, float], dict[str, Any]] = {}
+    found: dict[Case, list[dict[str, Any]]] = {}
 
-    def rows() -> Iterator[Iterator[str]]:
+    def lines() -> Iterator[Iterator[str]]:
         for case in CASES:
-            found[case] = in_own_process(case)
-            yield row_of(case, found[case])
+            found[case] = in_own_processes(case)
+            yield line(case, found[case])
 
-    head = ("map", "nodes", "ms, 1 thread", "ms, all threads", "memory, MB", "hypotheses of each scan", "truth contained", "limited")
-    report.table(head, rows())
-    for what in ("nodes", "one_s"):
-        exponent = slope([(case[0] * case[1], statistics.fmean(row[what] for row in found[case]["scans"])) for case in GROWTH])
-        words = {"nodes": "Nodes (the goal is an exponent of at most 1.05)", "one_s": "Time on one thread"}[what]
-        report.say(f"{words} grows as area to the power of **{exponent:.3f}** over the maps from {case_name(*GROWTH[0])} on.\n")
+    head = "map|scans|nodes|nodes per m²|ms, 1 thread|ms, all threads|memory, MB|scans × hypotheses|truth contained|limited"
+    report.table(head.split("|"), lines())
+    report.say(f"From {GROWTH[0]} on, nodes grow as area to the power of **{exponent(found, 'nodes'):.3f}** (the goal is at most 1.05),")
+    report.say(f"and the time on one thread as area to the power of {exponent(found, 'one_s'):.3f}.\n")
     report.say("Beside it, a brute-force search (`ial.particles.brute_force`) on the same scans. It returns one pose, and no guarantee.\n")
-    small = {case: each for case, each in found.items() if "brute_one_s" in each["scans"][0]}
-    report.table(
-        ("map", "poses tried", "brute force: ms, 1 thread", "ms, all", "off by, m", "ours: ms, 1 thread", "ms, all", "nearest hypothesis' middle off by, m"),
-        (
-            (
-                case_name(*case),
-                f"{median(each, 'brute_poses'):,.0f}",
-                *(f"{1e3 * median(each, name):.1f}" for name in ("brute_one_s", "brute_all_s")),
-                f"{median(each, 'brute_off_m'):.2f}, at most {max(row['brute_off_m'] for row in each['scans']):.2f}",
-                *(f"{1e3 * median(each, name):.1f}" for name in ("one_s", "all_s")),
-                f"{median(each, 'best_off_m'):.2f}, at most {max(row['best_off_m'] for row in each['scans']):.2f}",
-            )
-            for case, each in small.items()
-        ),
-    )
+    head = "map|poses tried|brute force: ms, 1 thread|ms, all threads|off by, m|ours: ms, 1 thread|ms, all threads|nearest middle off by, m"
+    report.table(head.split("|"), (beside(case, rows) for case, rows in found.items() if "brute_poses" in rows[0]))
     report.write(chosen.out)
 
 

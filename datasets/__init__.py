@@ -3,8 +3,7 @@
 Names are loaded when they are first used.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ial.datasets.conversion import convert as convert
@@ -31,29 +30,22 @@ if TYPE_CHECKING:
     from ial.datasets.trajectory import read_tum as read_tum
     from ial.datasets.trajectory import write_tum as write_tum
     from ial.datasets.walk import random_walk as random_walk
+else:
+    from ial.lazy import lazy as _lazy
 
-_ROOMS = {
-    "conversion": ("convert",),
-    "info": ("RecordingInfo",),
-    "motion": ("ErrorBound", "Motion", "MotionBounds"),
-    "odometry": ("Odometry",),
-    "opening": ("open_recording",),
-    "recording": ("Reading", "Recording", "Step", "steps"),
-    "sample": ("sample_grid", "sample_map_path", "sample_recording"),
-    "scan": ("BeamClass", "LaserScan", "Mounting"),
-    "simulator": ("Lidar", "SensorErrors", "simulate"),
-    "trajectory": ("Trajectory", "read_tum", "write_tum"),
-    "walk": ("random_walk",),
-}
-_ROOM_OF = {name: room for room, names in _ROOMS.items() for name in names}
-__all__ = sorted(_ROOM_OF)
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _ROOM_OF:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    return getattr(import_module(f"{__name__}.{_ROOM_OF[name]}"), name)
-
-
-def __dir__() -> list[str]:
-    return __all__
+    __getattr__, __dir__, __all__ = _lazy(
+        __name__,
+        {
+            "conversion": ("convert",),
+            "info": ("RecordingInfo",),
+            "motion": ("ErrorBound", "Motion", "MotionBounds"),
+            "odometry": ("Odometry",),
+            "opening": ("open_recording",),
+            "recording": ("Reading", "Recording", "Step", "steps"),
+            "sample": ("sample_grid", "sample_map_path", "sample_recording"),
+            "scan": ("BeamClass", "LaserScan", "Mounting"),
+            "simulator": ("Lidar", "SensorErrors", "simulate"),
+            "trajectory": ("Trajectory", "read_tum", "write_tum"),
+            "walk": ("random_walk",),
+        },
+    )

@@ -1,1 +1,32 @@
-"""."""
+"""The set-membership localizer on occupancy grids: every pose that a map, the scans and stated error bounds allow.
+
+Source: Guyonneau et al. 2014. Names are loaded when they are first used.
+"""
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ial.lidar.config import Bounds as Bounds
+    from ial.lidar.config import LocalizedSize as LocalizedSize
+    from ial.lidar.config import LocalizerConfig as LocalizerConfig
+    from ial.lidar.config import Precision as Precision
+    from ial.lidar.estimate import Estimate as Estimate
+    from ial.lidar.estimate import Hypothesis as Hypothesis
+    from ial.lidar.localizer import Localizer as Localizer
+    from ial.lidar.pose_set import PoseSet as PoseSet
+    from ial.lidar.run import localize as localize
+    from ial.lidar.scan_contractor import ScanContractor as ScanContractor
+else:
+    from ial.lazy import lazy as _lazy
+
+    __getattr__, __dir__, __all__ = _lazy(
+        __name__,
+        {
+            "config": ("Bounds", "LocalizedSize", "LocalizerConfig", "Precision"),
+            "estimate": ("Estimate", "Hypothesis"),
+            "localizer": ("Localizer",),
+            "pose_set": ("PoseSet",),
+            "run": ("localize",),
+            "scan_contractor": ("ScanContractor",),
+        },
+    )

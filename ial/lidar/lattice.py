@@ -22,13 +22,13 @@ class Lattice:
     Parameters
     ----------
     position_m
-        Width of a cell of the finest level along x and y.
+        Width of a cell of the finest level along x and y; rounded up to 24 bits, so that cells and their halves have exact bounds.
     heading_rad
         The circle is divided into the smallest power of two of equal parts that are at most this wide.
     """
 
     def __init__(self, position_m: float, heading_rad: float) -> None:
-        self.position_m = position_m
+        self.position_m = _rounded_up(position_m)
         self.layers = 1 << max(1, math.ceil(math.log2(2.0 * math.pi / heading_rad)))
 
     @property
@@ -61,6 +61,15 @@ class Lattice:
         lower, upper = np.empty((cells, 3)), np.empty((cells, 3))
         _cells_of(keys, words, _edges(layers), step, lower, upper)
         return Boxes(lower, upper)
+
+
+def _rounded_up(width: float) -> float:
+    """Return a width of 24 significant bits. Its multiples are exact up to 2^29, and bisecting a multiple of a power of two meets them.
+
+    With a width such as 0.1, bisection misses every third multiple by a bit, and a box that sticks out so far takes a whole cell more.
+    """
+    mantissa, exponent = math.frexp(width)
+    return math.ldexp(math.ceil(math.ldexp(mantissa, 24)), exponent - 24)
 
 
 def _edges(layers: int) -> FloatArray:

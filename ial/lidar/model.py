@@ -20,8 +20,8 @@ from ial.pose import Pose
 _PROBES = 2.0
 """A cell of the lattice is kept if a part of it, this many times narrower along every axis, may hold a consistent pose.
 
-Finer parts exclude more, while whole cells stay connected and their number small. Measured on intel_lab, every second scan: one hypothesis in
-86 % of the scans with cells alone, in 93 % with halved ones.
+Finer parts exclude more, while whole cells stay connected and few. On intel_lab (odd scans, 10 % outliers) this raises the share of scans
+with exactly one hypothesis from 90 % to 94 %; a lattice of twice the fineness in itself lowers it to 89 %.
 """
 
 _LAID_OUT_CELLS = 1 << 17  # above, a set is laid out coarser, and refined by the scan
@@ -51,10 +51,11 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         self.occupied = CellIndex(grid.mask(OCCUPIED), grid.resolution)
         self.domain = CellIndex(grid.mask(*allowed), grid.resolution)
         self.lattice = Lattice(config.precision.position_m, config.precision.heading_rad)
+        self._universe = PoseSet(self.lattice.root(grid.width_m, grid.height_m))
 
     def universe(self) -> PoseSet:
         """Return every pose in the map."""
-        return PoseSet(self.lattice.root(self.grid.width_m, self.grid.height_m))
+        return self._universe
 
     def within(self, boxes: Boxes) -> PoseSet:
         """Return the poses of the domain that lie in boxes (x, y, θ) of the map frame.
@@ -131,7 +132,8 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         anywhere, the prediction alone is carried on.
         """
         predicted = self.predict(states, motion)
-        found = PoseSet(Boxes.none(3)) if motion is None else self.contract(self.universe(), reading)
+        searched = motion is None and states is self._universe  # the step itself has searched the whole map in vain
+        found = PoseSet(Boxes.none(3)) if searched else self.contract(self._universe, reading)
         if len(found) and self.config.recovery == "restart":
             return found
         return unite(found, predicted)

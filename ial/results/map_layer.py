@@ -91,10 +91,9 @@ def covered_cells(boxes: Boxes, grid: OccupancyGrid) -> MaskArray:
     Each box adds one to its cells by four numbers at its corners, and two running sums fill in the rest, so the cost is that of the map
     however many boxes there are.
     """
-    limits = np.array([grid.columns, grid.rows])
-    first = np.clip(np.floor(boxes.lower[:, :2] / grid.resolution + 1e-9), 0, limits).astype(np.int64)
-    last = np.clip(np.ceil(boxes.upper[:, :2] / grid.resolution - 1e-9), 0, limits).astype(np.int64)
-    last = np.maximum(last, np.minimum(first + 1, limits))
+    first = np.floor(boxes.lower[:, :2] / grid.resolution + 1e-9)
+    last = np.maximum(np.ceil(boxes.upper[:, :2] / grid.resolution - 1e-9), first + 1.0)
+    first, last = (np.clip(edge, 0.0, (grid.columns, grid.rows)).astype(np.int64) for edge in (first, last))
     counts = np.zeros((grid.rows + 1, grid.columns + 1), dtype=np.int32)
     for rows, columns, sign in (
         (first[:, 1], first[:, 0], 1),

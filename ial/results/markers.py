@@ -17,6 +17,7 @@ from ial.results.ros_messages import point, pose_message, vector
 _LINES, _TRIANGLES = 5, 11  # Marker.LINE_LIST and Marker.TRIANGLE_LIST
 _ADD, _DELETE = 0, 2
 _RECTANGLES = 2000  # of one scan; more are drawn coarser
+_LINES_AT_MOST = 10_000  # of a raster along one axis
 _EDGE_M = 0.03
 _HAND_M = 0.6  # length of the lines that bound the heading
 _MAP = Pose()
@@ -44,14 +45,21 @@ def enclosure_markers(bag: BagWriter, stamp_ns: int, frame: str, grid: Occupancy
 def rectangles(boxes: Boxes, limit: int) -> FloatArray:
     """Return the rectangles x0, y0, x1, y1 that boxes (x, y, …) cover on the floor, shape (n, 4), without repetition.
 
-    Where there are more than `limit`, all are widened to a coarser raster, as often as needed.
+    Where there are more than `limit`, each is widened to the lines of a raster, which is made coarser until few enough are left.
     """
-    found = np.unique(np.concatenate([boxes.lower[:, :2], boxes.upper[:, :2]], axis=1), axis=0)
-    size = float(np.median(boxes.width()[:, :2])) if len(boxes) else 1.0
-    while len(found) > limit:
+    exact = np.unique(np.concatenate([boxes.lower[:, :2], boxes.upper[:, :2]], axis=1), axis=0)
+    if len(exact) <= limit:
+        return exact
+    corner = exact[:, :2].min(axis=0)
+    lower, upper = exact[:, :2] - corner, exact[:, 2:] - corner
+    size = max(float(np.median(upper - lower)), float(upper.max()) / _LINES_AT_MOST)
+    while True:
+        first = np.floor(lower / size)
+        last = np.maximum(np.ceil(upper / size), first + 1.0)
+        found = np.unique(np.concatenate([first, last], axis=1), axis=0)
+        if len(found) <= limit:
+            return np.asarray(found * size + np.tile(corner, 2))
         size *= 2.0
-        found = np.unique(np.concatenate([np.floor(found[:, :2] / size), np.ceil(found[:, 2:] / size)], axis=1) * size, axis=0)
-    return found
 
 
 def _triangles(found: FloatArray) -> FloatArray:

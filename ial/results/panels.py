@@ -105,11 +105,11 @@ def draw_scan(axes: Axes, layer: MapLayer, grid: OccupancyGrid, scan: tuple[Step
     rays = np.stack([np.broadcast_to((laser.x, laser.y), points.shape), points], axis=1)
     axes.add_collection(LineCollection(list(rays), colors=EDGE, linewidths=0.25, alpha=0.45, zorder=3), autolim=False)
     keys = [
-        axes.scatter(points[chosen, 0], points[chosen, 1], s=9, color=colour, linewidths=0, zorder=5, label=f"{chosen.sum()} hits {where}")
+        axes.scatter(points[chosen, 0], points[chosen, 1], s=9, color=colour, linewidths=0, zorder=5, label=f"{chosen.sum()} {where}")
         for chosen, colour, where in ((on, ON_WALL, "on the walls"), (~on, OFF_WALL, "elsewhere"))
     ]
     _draw_robot(axes, pose)
-    _finish(axes, f"scan {step.index} laid on the walls", keys)
+    _finish(axes, f"hits of scan {step.index} laid on the walls", keys)
 
 
 def _end_points(step: Step, pose: Pose) -> FloatArray:

@@ -27,8 +27,8 @@ def pose_text(pose: Pose, hypothesis: Hypothesis) -> str:
 
 
 def _within(value: float, lower: float, upper: float, digits: int) -> str:
-    """Return "value ± error", both rounded, so that the bounds lie within."""
+    """Return "value ± error", both rounded, so that the bounds lie within, but for a millionth of the last digit."""
     shown = round(value, digits)
     scale = 10.0**digits
-    error = math.ceil(max(upper - shown, shown - lower) * scale) / scale
+    error = math.ceil(max(upper - shown, shown - lower) * scale - 1e-6) / scale
     return f"{shown:.{digits}f} ± {error:.{digits}f}".replace("-", "−")

@@ -71,12 +71,13 @@ class Containment:
         self._counts["contained_hull"] += self._in_hull(estimate, pose)
         self._counts["holds"] += holds
         self._counts["contained_and_holds"] += contained and holds
-        for each in broken or ([] if holds else ["lost_before"]):
+        blamed = broken or ([] if holds else ["lost_before"])
+        for each in blamed:
             self._counts[f"broken_{each}"] += 1
         if estimate.pose is not None:
             self._errors.append(float(np.hypot(estimate.pose.x - pose.x, estimate.pose.y - pose.y)))
         if not contained:
-            self.misses.append({"index": step.index, "status": estimate.status, "broken": broken or ["lost_before"]})
+            self.misses.append({"index": step.index, "status": estimate.status, "broken": blamed})
         self._previous, self._was_contained, self._started = pose, contained, True
 
     @property

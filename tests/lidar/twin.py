@@ -33,7 +33,8 @@ class World:
         mask = random.random((rows, columns)) < random.choice([0.003, 0.02, 0.1])
         mask[random.integers(rows), random.integers(columns)] = True
         resolution = float(random.choice([0.05, 0.1, 1.0 / 3.0]))
-        pose = Pose(*(random.uniform(-0.1, 1.1, 2) * [columns, rows] * resolution).tolist(), float(random.uniform(-math.pi, math.pi)))
+        size = np.array([columns, rows]) * resolution
+        pose = Pose(*random.uniform(-0.1 * size, 1.1 * size).tolist(), float(random.uniform(-math.pi, math.pi)))
         mounting = Mounting(*random.uniform(-0.3, 0.3, 2).tolist(), float(random.uniform(-math.pi, math.pi)), bool(random.integers(2)))
         range_error, bearing_error, map_error = random.uniform(0.0, 0.1, 3) * random.integers(0, 2, 3)
         bounds = Bounds(float(range_error), float(bearing_error), float(map_error))

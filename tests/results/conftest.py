@@ -1,0 +1,63 @@
+"""One run over the embedded sample, and estimates made by hand."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from ial.contractors.boxes import Boxes
+from ial.datasets.recording import Step
+from ial.datasets.sample import sample_grid, sample_recording
+from ial.datasets.scan import LaserScan, Mounting
+from ial.lidar.estimate import Estimate, find_hypotheses
+from ial.lidar.localizer import Localizer
+from ial.lidar.pose_set import PoseSet
+from ial.lidar.run import localize
+from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
+from ial.pose import Pose
+
+Run = list[tuple[Step, Estimate]]
+
+
+@pytest.fixture(scope="session")
+def sample_run() -> Run:
+    """Every third scan of the sample, which ends localized."""
+    return list(localize(sample_recording(), Localizer(sample_grid()), every=3))
+
+
+@pytest.fixture(scope="session")
+def grid() -> OccupancyGrid:
+    """A room of 8 × 6 m in a shifted and turned frame."""
+    cells = np.zeros((60, 80), dtype=np.uint8)
+    cells[[0, -1], :] = OCCUPIED
+    cells[:, [0, -1]] = OCCUPIED
+    return OccupancyGrid(cells, 0.1, Pose(-3.0, 2.0, 0.4))
+
+
+@pytest.fixture
+def estimate_of(grid: OccupancyGrid) -> Callable[..., tuple[Step, Estimate]]:
+    """Return a function that makes the estimate of one scan from rows of boxes in the grid frame."""
+
+    def make(index: int, *rows: Any, status: str = "ambiguous", carried: bool = False, **changes: Any) -> tuple[Step, Estimate]:
+        boxes = Boxes.of(*rows) if rows else Boxes.none(3)
+        poses = PoseSet(boxes, np.full(len(boxes), carried))
+        hypotheses = find_hypotheses(poses, grid)
+        stamp = 10**18 + 123456789 * index
+        scan = LaserScan(stamp, np.array([1.0, 2.0, np.inf]), -0.5, 0.5, 0.1, 10.0, mounting=Mounting(0.2, 0.1, 0.3, upside_down=True))
+        fields: dict[str, Any] = {
+            "stamp_ns": stamp,
+            "status": status,
+            "hypotheses": hypotheses,
+            "pose": hypotheses[0].centre if status == "localized" else None,
+            "poses": poses,
+            "beams": 2,
+            "outliers_allowed": 1,
+            "uninformative": False,
+            "limited": "",
+            "elapsed_s": 0.25,
+            **changes,
+        }
+        return Step(index, stamp, None, scan, Pose(0.1 * index, 0.0, 0.05 * index)), Estimate(**fields)
+
+    return make

@@ -1,0 +1,99 @@
+import os
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from ial.errors import OutputError
+from ial.results.enclosures import EnclosuresFile
+from ial.results.result_folder import ResultFolder
+from ial.results.trajectory import TrajectoryFile
+
+
+class Faulty:
+    """A sink that fails."""
+
+    def __init__(self, when: str) -> None:
+        self.when = when
+
+    def __enter__(self) -> "Faulty":
+        return self
+
+    def add(self, step: Any, estimate: Any) -> None:
+        if self.when == "add":
+            raise OSError(28, "No space left on device")
+
+    def __exit__(self, *fault: object) -> None:
+        if self.when == "exit":
+            raise OSError(28, "No space left on device")
+
+
+def test_files_appear_at_the_end(sample_run: list[Any], tmp_path: Path) -> None:
+    out = tmp_path / "new" / "run"
+    with ResultFolder(out) as folder:
+        folder.attach(TrajectoryFile(folder.place("trajectory.tum")), EnclosuresFile(folder.place("enclosures.jsonl")))
+        for step, estimate in sample_run:
+            folder.add(step, estimate)
+        folder.write("note.txt", "done")
+        folder.close()
+        assert [file for file in out.iterdir() if not file.name.startswith(".")] == []
+    assert sorted(file.name for file in out.iterdir()) == ["enclosures.jsonl", "note.txt", "trajectory.tum"]
+
+
+@pytest.mark.parametrize("interruption", [KeyboardInterrupt, ValueError])
+def test_an_interrupted_run_leaves_nothing(sample_run: list[Any], tmp_path: Path, interruption: type[BaseException]) -> None:
+    out = tmp_path / "new" / "run"
+
+    def run() -> None:
+        with ResultFolder(out) as folder:
+            folder.attach(TrajectoryFile(folder.place("trajectory.tum")), EnclosuresFile(folder.place("enclosures.jsonl")))
+            folder.add(*sample_run[-1])
+            raise interruption
+
+    with pytest.raises(interruption):
+        run()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_interrupted_run_leaves_an_earlier_one_alone(tmp_path: Path) -> None:
+    (tmp_path / "summary.json").write_text("earlier")
+
+    def run() -> None:
+        with ResultFolder(tmp_path) as folder:
+            folder.write("summary.json", "half")
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        run()
+    assert [(file.name, file.read_text()) for file in tmp_path.iterdir()] == [("summary.json", "earlier")]
+
+
+@pytest.mark.parametrize("when", ["add", "exit"])
+def test_a_full_disk_is_said_and_leaves_nothing(sample_run: list[Any], tmp_path: Path, when: str) -> None:
+    out = tmp_path / "run"
+
+    def run() -> None:
+        with ResultFolder(out) as folder:
+            folder.write("first.txt", "complete")
+            folder.attach(Faulty(when))
+            folder.add(*sample_run[0])
+
+    with pytest.raises(OutputError, match=r"run: the results cannot be written \(No space left on device\)"):
+        run()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_file_in_the_place_of_the_folder(tmp_path: Path) -> None:
+    (tmp_path / "run").write_text("a file")
+    with pytest.raises(OutputError, match=r"run: results cannot be written there .*--out"):
+        ResultFolder(tmp_path / "run")
+    with pytest.raises(OutputError, match=r"deeper: results cannot be written there .*--out"):
+        ResultFolder(tmp_path / "run" / "deeper")
+    assert (tmp_path / "run").read_text() == "a file"
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="nothing is forbidden to root")
+def test_a_folder_without_permission(tmp_path: Path) -> None:
+    tmp_path.chmod(0o500)
+    with pytest.raises(OutputError, match="Permission denied"):
+        ResultFolder(tmp_path / "run")
