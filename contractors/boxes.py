@@ -92,8 +92,8 @@ class Boxes:
     def bisect(self, axis: npt.NDArray[np.intp]) -> "Boxes":
         """Return each row cut in two at its middle along its own axis: both halves of the first row, both of the second, and so on.
 
-        Halves stay side by side, so repeated bisection leaves neighbours in space close together in memory. An unbounded side is cut as if it
-        ended at the largest double.
+        Halves stay side by side, so repeated bisection leaves neighbours in space close together in memory. An unbounded side is cut as if
+        it ended at the largest double.
 
         Parameters
         ----------

@@ -89,9 +89,7 @@ def _first(cells, order, x, y, turn):  # type: ignore[no-untyped-def]
     while low < high:
         middle = (low + high) // 2
         row = order[middle]
-        before = cells[row, 0] < x or (
-            cells[row, 0] == x and (cells[row, 1] < y or (cells[row, 1] == y and cells[row, 2] < turn))
-        )
+        before = cells[row, 0] < x or (cells[row, 0] == x and (cells[row, 1] < y or (cells[row, 1] == y and cells[row, 2] < turn)))
         if before:
             low = middle + 1
         else:

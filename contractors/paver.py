@@ -1,5 +1,6 @@
 """The paver: contract, discard, bisect, repeat. Everything in ial that bisects calls this one."""
 
+import itertools
 import time
 from dataclasses import dataclass
 from typing import Literal
@@ -57,7 +58,7 @@ def pave(
     precision
         The wanted width along each axis, shape (d,).
     max_boxes
-        With more boxes than this, finished and waiting together, the search ends and returns all of them as they are.
+        Boxes are not bisected where that would make more than this many, finished and waiting together; they are returned as they are.
     max_seconds
         A limit on time; None for none. A search that reaches it is no longer reproducible.
     batch
@@ -72,11 +73,8 @@ def pave(
     count = len(boxes)
     limited: Limit = ""
     while waiting:
-        if kept + count > max_boxes and nodes:
-            limited = "boxes"
-        elif deadline is not None and time.monotonic() > deadline:
+        if deadline is not None and time.monotonic() > deadline:
             limited = "time"
-        if limited:
             break
         rows = waiting.pop()
         count -= len(rows)
@@ -86,15 +84,19 @@ def pave(
         excess = rows.width() / precision
         axis = excess.argmax(axis=1)
         wide = excess[np.arange(len(rows)), axis] > 1.0
+        halves = 2 * int(np.count_nonzero(wide))
+        if halves and kept + count + len(rows) + halves // 2 > max_boxes:
+            limited = "boxes"
+            wide[:] = False
         finished.append(rows[~wide])
         kept += len(finished[-1])
-        halves = rows[wide].bisect(axis[wide])
-        count += len(halves)
-        waiting.extend(_split(halves, batch))
+        bisected = rows[wide].bisect(axis[wide])
+        count += len(bisected)
+        waiting.extend(_split(bisected, batch))
     return Paving(Boxes.concatenate([Boxes.none(boxes.dimension), *finished, *waiting]), limited, nodes)
 
 
 def _split(boxes: Boxes, batch: int) -> list[Boxes]:
     parts = -(-len(boxes) // batch)
     edges = [len(boxes) * i // parts for i in range(parts + 1)] if parts else [0]
-    return [boxes[start:stop] for start, stop in zip(edges, edges[1:], strict=False)]
+    return [boxes[start:stop] for start, stop in itertools.pairwise(edges)]

@@ -5,6 +5,7 @@ loops this needs no threading layer, may be called from several Python threads a
 Rows are independent and each is written by one thread, so the result never depends on the number of threads.
 """
 
+import itertools
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -89,5 +90,5 @@ def run(kernel: Callable[..., Any], rows: int, *arguments: Any, minimum: int = _
         return
     chunks = min(threads * _CHUNKS_PER_THREAD, rows // minimum)
     edges = [rows * i // chunks for i in range(chunks + 1)]
-    for done in [_executor(threads).submit(work, start, stop) for start, stop in zip(edges, edges[1:], strict=False)]:
+    for done in [_executor(threads).submit(work, start, stop) for start, stop in itertools.pairwise(edges)]:
         done.result()

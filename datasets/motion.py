@@ -163,8 +163,8 @@ class ErrorBound:
 class MotionBounds:
     """How far one recorded odometry step may be from the true motion.
 
-    The defaults hold for 96 to 99 % of the recorded steps of three robots whose corrected trajectories are known (Intel, Freiburg 079, ACES),
-    one of them with poor odometry.
+    The defaults hold for 96 to 99 % of the recorded steps of three robots whose corrected trajectories are known (Intel, Freiburg 079,
+    ACES), one of them with poor odometry.
 
     Parameters
     ----------

@@ -94,6 +94,7 @@ def columns_with_cells(table, row0, row1, column0, column1):  # type: ignore[no-
 
 @kernel
 def rows_with_cells(table, row0, row1, column0, column1):  # type: ignore[no-untyped-def]
+    """Return the range from the first to behind the last row with a cell of the set; there must be one."""
     return columns_with_cells(table.T, column0, column1, row0, row1)
 
 

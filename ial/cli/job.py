@@ -117,7 +117,7 @@ class Job:
             summary = Summary(recording, grid, self.config, self._options())
             self._attach_sinks(folder, recording, grid, containment)
             scans = localize(recording, localizer, start=self.start, stop=self.stop, every=self.every, static=self.static)
-            for step, estimate in progress(scans, self._total, recording.name):
+            for step, estimate in progress(scans, self._total, Path(recording.name).name):
                 folder.add(step, estimate)
                 summary.add(step, estimate)
                 if containment is not None:

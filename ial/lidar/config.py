@@ -53,8 +53,12 @@ class Precision:
     heading_rad: float = 0.025
 
     def __post_init__(self) -> None:
-        _check("precision.position_m", self.position_m, positive=True)
-        _check("precision.heading_rad", self.heading_rad, positive=True)
+        for name, least in (("position_m", 1e-3), ("heading_rad", 1e-3)):
+            _check(f"precision.{name}", getattr(self, name), positive=True)
+            if getattr(self, name) < least:
+                raise ConfigError(
+                    f"precision.{name} is {getattr(self, name)!r}; give at least {least:g}: finer cells would fill the memory"
+                )
 
 
 @dataclass(frozen=True)
@@ -112,8 +116,9 @@ class LocalizerConfig:
         ):
             raise ConfigError(f"outliers is {self.outliers!r}; give a whole number of beams, or a fraction from 0.0 to 1.0")
         for name in ("max_boxes", "max_beams"):
-            if getattr(self, name) < 1:
-                raise ConfigError(f"{name} is {getattr(self, name)!r}; give at least 1")
+            value = getattr(self, name)
+            if not isinstance(value, int) or value < 1:
+                raise ConfigError(f"{name} is {value!r}; give a whole number of at least 1")
         if self.domain not in ("free", "free_or_unknown"):
             raise ConfigError(f"domain is {self.domain!r}; give 'free' or 'free_or_unknown'")
         if self.recovery not in ("union", "restart"):

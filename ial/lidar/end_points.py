@@ -2,8 +2,6 @@
 
 import math
 
-import numpy as np
-
 from ial.contractors.elementary import sincos
 from ial.contractors.kernels import kernel
 

@@ -1,5 +1,6 @@
 """`Estimate`: what one scan leaves of the possible poses, and how to say it."""
 
+import itertools
 from dataclasses import dataclass
 from typing import Literal
 
@@ -61,8 +62,8 @@ class Estimate:
     stamp_ns
         Time of the scan, nanoseconds.
     status
-        `localized`: one hypothesis, not larger than the configured size. `lost`: this scan fitted nowhere in the prediction and was searched
-        over the whole map. `blind`: it fitted nowhere at all. `ambiguous`: everything else.
+        `localized`: one hypothesis, not larger than the configured size. `lost`: this scan fitted nowhere in the prediction and was
+        searched over the whole map. `blind`: it fitted nowhere at all. `ambiguous`: everything else.
     hypotheses
         The connected sets of poses, the largest volume first.
     pose
@@ -102,7 +103,7 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid) -> tuple[Hypothesis, ..
     edges = np.searchsorted(clusters.labels[order], np.arange(len(clusters) + 1))
     theta = grid.boxes_to_map(clusters.hulls)
     found = []
-    for label, (start, stop) in enumerate(zip(edges[:-1], edges[1:], strict=True)):
+    for label, (start, stop) in enumerate(itertools.pairwise(edges)):
         rows = order[start:stop]
         hull = Boxes(in_map.lower[rows], in_map.upper[rows]).hull()
         found.append(
@@ -139,5 +140,3 @@ def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: 
         if position <= size.position_m and heading <= size.heading_rad:
             return "localized"
     return "ambiguous"
-
-

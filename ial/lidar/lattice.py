@@ -50,8 +50,9 @@ class Lattice:
             return boxes
         for level in range(64):
             step, layers = self.position_m * 2.0**level, max(1, self.layers >> level)
+            edges = _edges(layers)
             ranges = np.empty((len(boxes), 6), dtype=np.int64)
-            _cell_ranges(boxes.lower, boxes.upper, step, layers, ranges)
+            _cell_ranges(boxes.lower, boxes.upper, step, edges, ranges)
             if _tiles_met(ranges, layers) > _LARGEST_WORK:
                 continue
             keys, words = _filled_tiles(ranges, layers)
@@ -59,7 +60,7 @@ class Lattice:
             if cells <= max_cells:
                 break
         lower, upper = np.empty((cells, 3)), np.empty((cells, 3))
-        _cells_of(keys, words, _edges(layers), step, lower, upper)
+        _cells_of(keys, words, edges, step, lower, upper)
         return Boxes(lower, upper)
 
 
@@ -73,19 +74,23 @@ def _rounded_up(width: float) -> float:
 
 
 def _edges(layers: int) -> FloatArray:
-    """Return the boundaries of the headings' cells; the first and the last close the circle."""
-    edges = -math.pi + 2.0 * math.pi * np.arange(layers + 1) / layers
-    edges[0], edges[-1] = -PI_UPPER, PI_UPPER
+    """Return the boundaries of the headings' cells, those that `Boxes.bisect` makes of the circle, bit for bit."""
+    edges = np.array([-PI_UPPER, PI_UPPER])
+    while len(edges) <= layers:
+        finer = np.empty(2 * len(edges) - 1)
+        finer[::2] = edges
+        finer[1::2] = edges[:-1] + 0.5 * (edges[1:] - edges[:-1])
+        edges = finer
     return edges
 
 
 @kernel
-def _cell_ranges(lower, upper, step, layers, ranges):  # type: ignore[no-untyped-def]
+def _cell_ranges(lower, upper, step, edges, ranges):  # type: ignore[no-untyped-def]
     """Fill `ranges` with the first and last cell of each box along x, y and θ; the θ cells are counted on beyond a turn.
 
-    Along x and y the bounds of the cells are compared exactly as they will be returned. Headings take a margin instead, which also covers
-    the rounding of their cells' bounds.
+    Bounds are compared exactly with those of the cells. Only the part of an arc beyond π takes a margin, which covers the turn of 2π.
     """
+    layers = len(edges) - 1
     width = 2.0 * math.pi / layers
     for row in range(len(lower)):
         for axis in range(2):
@@ -97,8 +102,20 @@ def _cell_ranges(lower, upper, step, layers, ranges):  # type: ignore[no-untyped
                 last += 1
             ranges[row, 2 * axis] = first
             ranges[row, 2 * axis + 1] = last
-        first = int(math.floor((lower[row, 2] + math.pi) / width - 1e-9))
-        last = int(math.floor((upper[row, 2] + math.pi) / width + 1e-9))
+        start, stop = lower[row, 2], upper[row, 2]
+        first = min(max(int(math.floor((start + math.pi) / width)), 0), layers - 1)
+        while first > 0 and edges[first] > start:
+            first -= 1
+        while first < layers - 1 and edges[first + 1] <= start:
+            first += 1
+        if stop > edges[layers]:
+            last = max(int(math.floor((stop + math.pi) / width + 1e-9)), layers)
+        else:
+            last = min(max(int(math.floor((stop + math.pi) / width)), first), layers - 1)
+            while edges[last + 1] < stop:
+                last += 1
+            while last > first and edges[last] >= stop:
+                last -= 1
         ranges[row, 4] = first
         ranges[row, 5] = min(last, first + layers - 1)
 

@@ -76,6 +76,11 @@ class Localizer:
         self._filter = SetMembershipFilter(self.model, self.model.recover, self._start)
 
     @property
+    def start(self) -> PoseSet:
+        """The set of poses that is assumed before the first scan, in the grid's frame."""
+        return self._start
+
+    @property
     def poses(self) -> PoseSet:
         """The present set of poses, in the grid's frame."""
         return self._filter.states
@@ -96,17 +101,13 @@ class Localizer:
         """
         return self._estimate(self._filter, motion, scan)
 
-    def _estimate(
-        self, tracker: SetMembershipFilter[PoseSet, Motion | None, Beams], motion: Motion | None, scan: LaserScan
-    ) -> Estimate:
+    def _estimate(self, tracker: SetMembershipFilter[PoseSet, Motion | None, Beams], motion: Motion | None, scan: LaserScan) -> Estimate:
         begun = time.perf_counter()
         beams = select_beams(scan, self.config.bounds, self.config.outliers, self.config.max_beams)
         rejection = tracker.update(motion, beams)
         poses = tracker.states
         hypotheses = find_hypotheses(poses, self.grid)
-        status = judge(
-            hypotheses, self.config.localized_size, rejected=rejection is not None, found=not bool(poses.carried.all())
-        )
+        status = judge(hypotheses, self.config.localized_size, rejected=rejection is not None, found=not bool(poses.carried.all()))
         pose = hypotheses[0].centre if status == "localized" else None
         return Estimate(
             stamp_ns=scan.stamp_ns,
@@ -120,4 +121,3 @@ class Localizer:
             limited=poses.limited,
             elapsed_s=time.perf_counter() - begun,
         )
-

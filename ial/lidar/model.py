@@ -67,7 +67,9 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         """
         cells = self._laid_out(self.grid.boxes_to_grid(boxes))
         if not len(cells):
-            raise ConfigError("the initial region lies outside the free space of the map; check --initial, the origin of the map, and domain")
+            raise ConfigError(
+                "the initial region lies outside the free space of the map; check --initial, the origin of the map, and domain"
+            )
         return PoseSet(cells)
 
     def predict(self, states: PoseSet, motion: Motion | None) -> PoseSet:
@@ -79,7 +81,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
 
     def _laid_out(self, boxes: Boxes) -> Boxes:
         """Return the cells of the lattice that cover boxes, as far as they meet the domain."""
-        cells = self.lattice.cover(self._within_map(boxes), _LAID_OUT_CELLS)
+        cells = self.lattice.cover(self._within_map(boxes), min(_LAID_OUT_CELLS, self.config.max_boxes))
         return cells[self.domain.meet(Boxes(cells.lower[:, :2], cells.upper[:, :2]))]
 
     def _within_map(self, boxes: Boxes) -> Boxes:

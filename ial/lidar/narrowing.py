@@ -34,9 +34,7 @@ def narrow(xl, yl, xu, yu, bounds, q, table, low, high):  # type: ignore[no-unty
     columns = np.int32(table.shape[1] - 1)
     kept = 0
     for i in range(beams):
-        left, below, right, above = corners(
-            bounds, i, xl + OFFSET, yl + OFFSET, xu + (OFFSET + 1.0), yu + (OFFSET + 1.0), columns, rows
-        )
+        left, below, right, above = corners(bounds, i, xl + OFFSET, yl + OFFSET, xu + (OFFSET + 1.0), yu + (OFFSET + 1.0), columns, rows)
         if left >= right or below >= above or count(table, below, above, left, right) == 0:
             continue
         first, behind = columns_with_cells(table, below, above, left, right)

@@ -75,11 +75,16 @@ def _narrow(start, stop, order, lower, upper, ends, directions, errors, q, map_e
         yu = upper[row, 1] / resolution
         if min(xl, yl) < -NEAR or max(xu, yu) > NEAR:
             continue
-        xl, yl, xu, yu = narrow(xl, yl, xu, yu, bounds, q, table, low, high)
-        lower[row, 0] = max(lower[row, 0], xl * resolution)
-        lower[row, 1] = max(lower[row, 1], yl * resolution)
-        upper[row, 0] = min(upper[row, 0], xu * resolution)
-        upper[row, 1] = min(upper[row, 1], yu * resolution)
+        x0, y0, x1, y1 = narrow(xl, yl, xu, yu, bounds, q, table, low, high)
+        # The margin in `bounds` covers the rounding of a bound that has moved; one that has not keeps its bits.
+        if x0 > xl:
+            lower[row, 0] = max(lower[row, 0], x0 * resolution)
+        if y0 > yl:
+            lower[row, 1] = max(lower[row, 1], y0 * resolution)
+        if x1 < xu:
+            upper[row, 0] = min(upper[row, 0], x1 * resolution)
+        if y1 < yu:
+            upper[row, 1] = min(upper[row, 1], y1 * resolution)
 
 
 class ScanContractor:
@@ -116,7 +121,7 @@ class ScanContractor:
         return keep
 
     def contract(self, boxes: Boxes) -> Boxes:
-        """Return the boxes, their positions narrowed by relaxed intersection over the beams; those without a consistent pose are emptied."""
+        """Return the boxes, positions narrowed by relaxed intersection over the beams; those without a consistent pose are emptied."""
         keep = self.fits(boxes)
         lower, upper = boxes.lower.copy(), boxes.upper.copy()
         beams = self.beams

@@ -20,8 +20,9 @@ TruthFrame = Literal["base", "laser"]
 class Containment:
     """Counts how often the reference pose lies in the answer, and whether the assumptions held when it did not.
 
-    The assumptions hold at a scan if the reference pose is consistent with it (at most q bad beams, inside the domain), and either nothing
-    was assumed before, or the motion between the two reference poses lies in its interval and the reference was contained at the scan before.
+    The assumptions hold at a scan if the reference pose is consistent with it (at most q bad beams, inside the domain), and either
+    the scan is localized from the start and the start holds the reference, or the motion between the two reference poses lies in its
+    interval and the reference was contained at the scan before.
 
     Parameters
     ----------
@@ -65,7 +66,8 @@ class Containment:
         in_grid = self._localizer.grid.pose_to_grid(pose)
         contained = estimate.poses.contains(in_grid)
         broken = self._broken(step, pose, in_grid)
-        holds = not broken and (self._fresh or (self._previous is not None and self._was_contained))
+        before = self._localizer.start.contains(in_grid) if self._fresh else self._previous is not None and self._was_contained
+        holds = not broken and before
         self._counts["reference"] += 1
         self._counts["contained"] += contained
         self._counts["contained_hull"] += self._in_hull(estimate, pose)
@@ -90,9 +92,9 @@ class Containment:
         beams = select_beams(step.scan, config.bounds, config.outliers, config.max_beams)
         bad = len(beams) - int(good_beams(beams, in_grid, self._localizer.grid, config.bounds.map_error_m).sum())
         broken = ["beams"] if bad > beams.outliers else []
-        if not self._fresh and self._previous is not None and step.motion is not None:
-            if not step.motion.contains(self._previous.inverse() @ pose):
-                broken.append("motion")
+        previous = None if self._fresh else self._previous
+        if previous is not None and step.motion is not None and not step.motion.contains(previous.inverse() @ pose):
+            broken.append("motion")
         if not self._localizer.model.in_domain(in_grid):
             broken.append("domain")
         return broken
@@ -107,7 +109,7 @@ class Containment:
         """Return the measures as plain values; a share with an empty denominator is None, and does not pass.
 
         `broken` counts, over the scans at which the assumptions do not hold, which of them the reference breaks; `lost_before` means that
-        the scan itself breaks none, but the reference was not contained (or not known) at the scan before.
+        the scan itself breaks none, but the reference was not contained (or not known) at the scan before, or not in the initial region.
         """
         counts = self._counts
         reference, holds = counts["reference"], counts["holds"]
@@ -126,5 +128,3 @@ class Containment:
 
 def _share(part: int, whole: int) -> float | None:
     return part / whole if whole else None
-
-

@@ -157,7 +157,7 @@ def test_a_side_is_bisected_only_down_to_its_own_precision() -> None:
 
 def test_the_side_widest_in_units_of_its_precision_is_bisected_first() -> None:
     plane = HalfPlane(np.array([0.0, 0.0]), 0.0)
-    paving = pave(plane, Boxes.of([(0, 8), (0, 4)]), np.array([4.0, 1.0]), max_boxes=1)
+    paving = pave(plane, Boxes.of([(0, 8), (0, 4)]), np.array([4.0, 1.0]), max_boxes=2)
     assert as_set(paving.boxes) == {(0.0, 0.0, 8.0, 2.0), (0.0, 2.0, 8.0, 4.0)}
 
 

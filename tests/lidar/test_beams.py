@@ -79,7 +79,9 @@ def test_only_hits_are_used() -> None:
     assert np.hypot(*beams.ends.T) == pytest.approx([1.0, 3.0, 9.5])
 
 
-@pytest.mark.parametrize(("hits", "most", "used"), [(10, 180, 10), (10, 10, 10), (10, 3, 3), (181, 180, 180), (1000, 7, 7), (5, 1, 1), (0, 5, 0)])
+@pytest.mark.parametrize(
+    ("hits", "most", "used"), [(10, 180, 10), (10, 10, 10), (10, 3, 3), (181, 180, 180), (1000, 7, 7), (5, 1, 1), (0, 5, 0)]
+)
 def test_at_most_max_beams_are_used_spread_evenly_and_none_twice(hits: int, most: int, used: int) -> None:
     ranges = np.full(2 * hits + 1, np.nan)
     ranges[1::2] = 1.0 + np.arange(hits)
@@ -93,7 +95,8 @@ def test_at_most_max_beams_are_used_spread_evenly_and_none_twice(hits: int, most
 
 
 @pytest.mark.parametrize(
-    ("outliers", "hits", "q"), [(0, 10, 0), (3, 10, 3), (30, 10, 30), (0.0, 10, 0), (0.25, 10, 2), (0.99, 10, 9), (1.0, 10, 10), (0.5, 0, 0), (0.5, 1, 0)]
+    ("outliers", "hits", "q"),
+    [(0, 10, 0), (3, 10, 3), (30, 10, 30), (0.0, 10, 0), (0.25, 10, 2), (0.99, 10, 9), (1.0, 10, 10), (0.5, 0, 0), (0.5, 1, 0)],
 )
 def test_q_is_a_number_of_beams_or_a_fraction_of_the_used_ones(outliers: int | float, hits: int, q: int) -> None:
     beams = select_beams(scan([1.0] * hits + [np.nan] * 20), Bounds(), outliers, 180)

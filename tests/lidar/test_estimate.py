@@ -81,7 +81,9 @@ def test_the_hull_in_the_map_frame_holds_every_pose_of_the_set() -> None:
         for row in range(5):
             at = boxes.lower[row] + random.random(3) * boxes.width()[row]
             pose = there.pose_to_map(Pose(*at.tolist()))
-            inside = [e for e in found if e.x[0] <= pose.x <= e.x[1] and e.y[0] <= pose.y <= e.y[1] and contains_angle(*e.theta, pose.theta)]
+            inside = [
+                e for e in found if e.x[0] <= pose.x <= e.x[1] and e.y[0] <= pose.y <= e.y[1] and contains_angle(*e.theta, pose.theta)
+            ]
             assert inside
         assert all(abs(each.theta[0]) <= PI_UPPER for each in found)
 

@@ -84,7 +84,9 @@ def test_no_cell_is_far_from_every_box(batch: tuple[Lattice, Boxes]) -> None:
     meets = ((cells.lower[:, None, :2] <= boxes.upper[:, :2]) & (boxes.lower[:, :2] <= cells.upper[:, None, :2])).all(axis=2)
     turned = np.zeros_like(meets)
     for turn in (-2.0 * math.pi, 0.0, 2.0 * math.pi):
-        turned |= (cells.lower[:, None, 2] + turn <= boxes.upper[:, 2] + slack) & (boxes.lower[:, 2] <= cells.upper[:, None, 2] + turn + slack)
+        turned |= (cells.lower[:, None, 2] + turn <= boxes.upper[:, 2] + slack) & (
+            boxes.lower[:, 2] <= cells.upper[:, None, 2] + turn + slack
+        )
     assert (meets & turned).any(axis=1).all()
 
 
@@ -175,7 +177,8 @@ def test_halves_of_cells_never_stick_out_of_their_cell(position: float) -> None:
     lines = Boxes(root.lower * [1.0, 0.0, 0.0], root.upper * [1.0, 0.0, 0.0])
     while lines.width()[0, 0] > 0.6 * position:
         lines = lines.bisect(np.zeros(len(lines), dtype=np.intp))
-    inside = Boxes(lines.lower + [0.0, 0.5 * position, 1.0], lines.upper + [0.0, 0.5 * position, 1.0])
+    middle = np.array([0.0, 0.5 * position, 1.0])
+    inside = Boxes(lines.lower + middle, lines.upper + middle)
     assert len(inside) >= 80.0 / position
     assert all(len(lattice.cover(inside[[row]], PLENTY)) == 1 for row in range(len(inside)))
 

@@ -60,7 +60,14 @@ def followed(localizer: Localizer, driven: list[Step]) -> list[Estimate]:
 
 def bits(estimates: list[Estimate]) -> list[tuple[object, ...]]:
     return [
-        (each.status, each.pose, each.hypotheses, each.poses.boxes.lower.tobytes(), each.poses.boxes.upper.tobytes(), each.poses.carried.tobytes())
+        (
+            each.status,
+            each.pose,
+            each.hypotheses,
+            each.poses.boxes.lower.tobytes(),
+            each.poses.boxes.upper.tobytes(),
+            each.poses.carried.tobytes(),
+        )
         for each in estimates
     ]
 

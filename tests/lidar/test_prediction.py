@@ -74,7 +74,9 @@ def test_headings_keep_the_form_of_angles() -> None:
 
 
 def test_the_moved_box_is_hardly_larger_than_the_poses_in_it() -> None:
-    after = move(Boxes.of([(1.0, 1.0), (2.0, 2.0), (0.5 * math.pi, 0.5 * math.pi)]), Motion(np.array([3.0, 1.0, 2.0]), np.array([3.0, 1.0, 2.0])))
+    after = move(
+        Boxes.of([(1.0, 1.0), (2.0, 2.0), (0.5 * math.pi, 0.5 * math.pi)]), Motion(np.array([3.0, 1.0, 2.0]), np.array([3.0, 1.0, 2.0]))
+    )
     assert after.width().max() < 1e-14
     assert after.lower[0] == pytest.approx([0.0, 5.0, 0.5 * math.pi + 2.0 - 2.0 * math.pi], abs=1e-14)
 
