@@ -21,7 +21,7 @@ from ial.maps.map_file import read_map
 from ial.maps.occupancy_grid import OccupancyGrid
 from ial.study.containment import Containment, TruthFrame
 
-ABOUT = """\\
+ABOUT = """\
 Every run has the default configuration. Maps called *even* were drawn from the even scans and are used with the odd ones. References marked
 *pseudo* come from a particle filter and are good to 0.1–0.2 m: a sanity check, no measurement. Words as in the page on the guarantee.
 `✗` marks what misses its goal; the goals are: `contained when the assumptions hold` 1 over a denominator above 0, `contained` 0.97 (static)

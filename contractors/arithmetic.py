@@ -171,7 +171,7 @@ def sqrt(al, au):  # type: ignore[no-untyped-def]
 
 @kernel
 def absolute(al, au):  # type: ignore[no-untyped-def]
-    """Return {|x| : x in a}."""
+    """Return the absolute values of an interval."""
     return max(0.0, max(al, -au)), max(-al, au)
 
 

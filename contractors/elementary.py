@@ -35,7 +35,7 @@ def sincos(x):  # type: ignore[no-untyped-def]
     """Return sin x and cos x of a number, each wrong by less than one unit in its last place.
 
     Two bit steps outward (``down(down(s))``, ``up(up(s))``) therefore enclose the exact value. The error is also below 2^-53. The range is
-    |x| <= `LARGEST_ANGLE`; beyond it the result is NaN.
+    ``|x|`` <= `LARGEST_ANGLE`; beyond it the result is NaN.
     """
     # Cody and Waite's reduction to r + rest = x − k·π/2. The first difference is exact; what the second and its product round off
     # goes into the rest, because r itself may be as small as 2^-61.
@@ -78,13 +78,13 @@ def _between(start, stop, lower, upper, phase):  # type: ignore[no-untyped-def]
 
 @kernel
 def sin(lower, upper):  # type: ignore[no-untyped-def]
-    """Return {sin x : x in [lower, upper]}; [-1, 1] where |x| exceeds `LARGEST_ANGLE`."""
+    """Return {sin x : x in [lower, upper]}; [-1, 1] where ``|x|`` exceeds `LARGEST_ANGLE`."""
     return _between(sincos(lower)[0], sincos(upper)[0], lower, upper, 0.5)
 
 
 @kernel
 def cos(lower, upper):  # type: ignore[no-untyped-def]
-    """Return {cos x : x in [lower, upper]}; [-1, 1] where |x| exceeds `LARGEST_ANGLE`."""
+    """Return {cos x : x in [lower, upper]}; [-1, 1] where ``|x|`` exceeds `LARGEST_ANGLE`."""
     return _between(sincos(lower)[1], sincos(upper)[1], lower, upper, 0.0)
 
 

@@ -1,14 +1,13 @@
 """`convert`: writes any recording as a ROS bag that reads back as the very same steps."""
 
-import math
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ial.datasets import ros_messages as ros
 from ial.datasets.recording import Reading, Recording
-from ial.datasets.scan import Mounting
 from ial.datasets.tf_buffer import ODOM_FRAME
 from ial.errors import OutputError
 
@@ -54,34 +53,18 @@ def convert(recording: Recording, path: str | Path) -> int:
     return count
 
 
-def _quaternion(bag: "BagWriter", x: float, y: float, z: float, w: float) -> Any:
-    return bag.message("geometry_msgs/msg/Quaternion", x=x, y=y, z=z, w=w)
-
-
-def _transform(bag: "BagWriter", stamp_ns: int, parent: str, child: str, x: float, y: float, turn: Any) -> Any:
-    """Return a TFMessage with one transform."""
-    translation = bag.message("geometry_msgs/msg/Vector3", x=x, y=y, z=0.0)
-    transform = bag.message("geometry_msgs/msg/Transform", translation=translation, rotation=turn)
-    header = bag.header(stamp_ns, parent)
-    stamped = bag.message("geometry_msgs/msg/TransformStamped", header=header, child_frame_id=child, transform=transform)
-    return bag.message("tf2_msgs/msg/TFMessage", transforms=[stamped])
-
-
 def _write_mounting(bag: "BagWriter", first: Reading) -> None:
-    mounting: Mounting = first.scan.mounting
-    sine, cosine = mounting.pose.quaternion()
-    turn = _quaternion(bag, cosine, sine, 0.0, 0.0) if mounting.upside_down else _quaternion(bag, 0.0, 0.0, sine, cosine)
-    message = _transform(bag, first.stamp_ns, BASE, first.scan.frame_id, mounting.x, mounting.y, turn)
-    bag.write("/tf_static", "tf2_msgs/msg/TFMessage", first.stamp_ns, message, latched=True)
+    transform = ros.mounting_transform(bag, first.stamp_ns, BASE, first.scan.frame_id, first.scan.mounting)
+    bag.write("/tf_static", "tf2_msgs/msg/TFMessage", first.stamp_ns, ros.transforms_message(bag, [transform]), latched=True)
 
 
 def _write_odometry(bag: "BagWriter", reading: Reading) -> None:
     odometry, stamp = reading.odometry, reading.stamp_ns
-    turn = _quaternion(bag, 0.0, 0.0, odometry.z, odometry.w)
-    bag.write("/tf", "tf2_msgs/msg/TFMessage", stamp, _transform(bag, stamp, ODOM_FRAME, BASE, odometry.x, odometry.y, turn))
-    position = bag.message("geometry_msgs/msg/Point", x=odometry.x, y=odometry.y, z=0.0)
-    pose = bag.message("geometry_msgs/msg/Pose", position=position, orientation=turn)
-    zero = bag.message("geometry_msgs/msg/Vector3", x=0.0, y=0.0, z=0.0)
+    turn = ros.rotation(bag, 0.0, 0.0, odometry.z, odometry.w)
+    transform = ros.stamped_transform(bag, stamp, ODOM_FRAME, BASE, odometry.x, odometry.y, turn)
+    bag.write("/tf", "tf2_msgs/msg/TFMessage", stamp, ros.transforms_message(bag, [transform]))
+    pose = bag.message("geometry_msgs/msg/Pose", position=ros.point(bag, odometry.x, odometry.y), orientation=turn)
+    zero = ros.vector(bag, 0.0, 0.0)
     twist = bag.message("geometry_msgs/msg/Twist", linear=zero, angular=zero)
     message = bag.message(
         "nav_msgs/msg/Odometry",
@@ -92,25 +75,10 @@ def _write_odometry(bag: "BagWriter", reading: Reading) -> None:
     )
     bag.write("/odom", "nav_msgs/msg/Odometry", stamp, message)
     if odometry.error_m or odometry.error_rad:
-        error = bag.message("geometry_msgs/msg/Vector3", x=odometry.error_m, y=0.0, z=odometry.error_rad)
+        error = ros.vector(bag, odometry.error_m, 0.0, odometry.error_rad)
         stamped = bag.message("geometry_msgs/msg/Vector3Stamped", header=bag.header(stamp, ODOM_FRAME), vector=error)
         bag.write("/odom_error", "geometry_msgs/msg/Vector3Stamped", stamp, stamped)
 
 
 def _write_scan(bag: "BagWriter", reading: Reading) -> None:
-    scan = reading.scan
-    angle_max = float(np.float32(scan.angle_min + (len(scan) - 1) * scan.angle_increment))
-    message = bag.message(
-        "sensor_msgs/msg/LaserScan",
-        header=bag.header(reading.stamp_ns, scan.frame_id),
-        angle_min=scan.angle_min,
-        angle_max=angle_max if math.isfinite(angle_max) else 0.0,
-        angle_increment=scan.angle_increment,
-        time_increment=scan.time_increment,
-        scan_time=0.0,
-        range_min=scan.range_min,
-        range_max=scan.range_max,
-        ranges=scan.ranges,
-        intensities=np.empty(0, dtype=np.float32),
-    )
-    bag.write("/scan", "sensor_msgs/msg/LaserScan", reading.stamp_ns, message)
+    bag.write("/scan", "sensor_msgs/msg/LaserScan", reading.stamp_ns, ros.scan_message(bag, reading.scan))

@@ -4,8 +4,9 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
 
-from ial.datasets.info import RecordingInfo, Topic, describe
+from ial.datasets.info import RecordingInfo, Topic
 from ial.datasets.recording import Reading
+from ial.datasets.survey import survey
 from ial.errors import RecordingError
 
 
@@ -42,4 +43,4 @@ class InMemoryRecording:
 
     def info(self) -> RecordingInfo:
         """Return what the recording holds."""
-        return describe(self, "in memory", [Topic("scans", "LaserScan", len(self._readings))], {})
+        return survey(self, "in memory", [Topic("scans", "LaserScan", len(self._readings))], {})

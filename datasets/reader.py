@@ -6,10 +6,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from ial.datasets.info import RecordingInfo, Topic, describe
+from ial.datasets.info import RecordingInfo, Topic
 from ial.datasets.odometry import Odometry
 from ial.datasets.recording import Reading
 from ial.datasets.scan import LaserScan
+from ial.datasets.survey import survey
 from ial.errors import RecordingError
 
 _MILLISECOND = 10**6
@@ -119,4 +120,4 @@ class Reader(ABC):
             topics, frames = self._topics(), self._frames()
         except RecordingError as error:
             return RecordingInfo(self.name, self.format, missing=[str(error)])
-        return describe(self, self.format, topics, frames)
+        return survey(self, self.format, topics, frames)

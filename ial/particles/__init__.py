@@ -1,1 +1,1 @@
-"""."""
+"""Comparators: what is not guaranteed, to compare with."""

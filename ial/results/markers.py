@@ -8,11 +8,11 @@ import numpy as np
 
 from ial.contractors.boxes import Boxes, FloatArray
 from ial.datasets.bag_writer import BagWriter
+from ial.datasets.ros_messages import point, pose_message, vector
 from ial.lidar.estimate import Estimate, Hypothesis
 from ial.maps.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
 from ial.results.palette import PREDICTION, STATUS_COLOURS, rgb
-from ial.results.ros_messages import point, pose_message, vector
 
 _LINES, _TRIANGLES = 5, 11  # Marker.LINE_LIST and Marker.TRIANGLE_LIST
 _ADD, _DELETE = 0, 2

@@ -5,11 +5,11 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from ial.datasets import ros_messages as ros
 from ial.datasets.bag_writer import BagWriter
 from ial.datasets.recording import Step
 from ial.lidar.estimate import Estimate
 from ial.maps.occupancy_grid import OccupancyGrid
-from ial.results import ros_messages as ros
 from ial.results.markers import enclosure_markers
 
 MAP, ODOM, BASE = "map", "odom", "base_link"

@@ -1,74 +1,77 @@
-"""ROS 2 messages of what a localizer knows, by type."""
+"""ROS messages of what a recording and a result hold, by type."""
 
 import math
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ial.datasets.bag_writer import BagWriter
 from ial.datasets.scan import LaserScan, Mounting
 from ial.maps.grid_message import grid_to_message_fields
 from ial.maps.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
 
+if TYPE_CHECKING:
+    from ial.datasets.bag_writer import BagWriter  # rosbags is slow to import
 
-def vector(bag: BagWriter, x: float, y: float, z: float = 0.0) -> Any:
+
+def vector(bag: "BagWriter", x: float, y: float, z: float = 0.0) -> Any:
     """Return a geometry_msgs/Vector3."""
     return bag.message("geometry_msgs/msg/Vector3", x=x, y=y, z=z)
 
 
-def point(bag: BagWriter, x: float, y: float) -> Any:
+def point(bag: "BagWriter", x: float, y: float) -> Any:
     """Return a geometry_msgs/Point on the floor."""
     return bag.message("geometry_msgs/msg/Point", x=x, y=y, z=0.0)
 
 
-def rotation(bag: BagWriter, x: float, y: float, z: float, w: float) -> Any:
+def rotation(bag: "BagWriter", x: float, y: float, z: float, w: float) -> Any:
     """Return a geometry_msgs/Quaternion."""
     return bag.message("geometry_msgs/msg/Quaternion", x=x, y=y, z=z, w=w)
 
 
-def pose_message(bag: BagWriter, pose: Pose) -> Any:
+def pose_message(bag: "BagWriter", pose: Pose) -> Any:
     """Return a geometry_msgs/Pose."""
     z, w = pose.quaternion()
     return bag.message("geometry_msgs/msg/Pose", position=point(bag, pose.x, pose.y), orientation=rotation(bag, 0.0, 0.0, z, w))
 
 
-def stamped_pose(bag: BagWriter, stamp_ns: int, frame: str, pose: Pose) -> Any:
+def stamped_pose(bag: "BagWriter", stamp_ns: int, frame: str, pose: Pose) -> Any:
     """Return a geometry_msgs/PoseStamped."""
     return bag.message("geometry_msgs/msg/PoseStamped", header=bag.header(stamp_ns, frame), pose=pose_message(bag, pose))
 
 
-def path_message(bag: BagWriter, stamp_ns: int, frame: str, poses: Iterable[Any]) -> Any:
+def path_message(bag: "BagWriter", stamp_ns: int, frame: str, poses: Iterable[Any]) -> Any:
     """Return a nav_msgs/Path of stamped poses."""
     return bag.message("nav_msgs/msg/Path", header=bag.header(stamp_ns, frame), poses=list(poses))
 
 
-def transform(bag: BagWriter, stamp_ns: int, parent: str, child: str, pose: Pose) -> Any:
+def transform(bag: "BagWriter", stamp_ns: int, parent: str, child: str, pose: Pose) -> Any:
     """Return a geometry_msgs/TransformStamped, ``T_parent_child``."""
     z, w = pose.quaternion()
-    return _stamped(bag, stamp_ns, parent, child, pose, rotation(bag, 0.0, 0.0, z, w))
+    return stamped_transform(bag, stamp_ns, parent, child, pose.x, pose.y, rotation(bag, 0.0, 0.0, z, w))
 
 
-def mounting_transform(bag: BagWriter, stamp_ns: int, base: str, laser: str, mounting: Mounting) -> Any:
+def mounting_transform(bag: "BagWriter", stamp_ns: int, base: str, laser: str, mounting: Mounting) -> Any:
     """Return a geometry_msgs/TransformStamped of where the lidar sits; one that hangs upside down is rolled by π."""
     z, w = mounting.pose.quaternion()
     turn = rotation(bag, w, z, 0.0, 0.0) if mounting.upside_down else rotation(bag, 0.0, 0.0, z, w)
-    return _stamped(bag, stamp_ns, base, laser, mounting.pose, turn)
+    return stamped_transform(bag, stamp_ns, base, laser, mounting.x, mounting.y, turn)
 
 
-def _stamped(bag: BagWriter, stamp_ns: int, parent: str, child: str, pose: Pose, turn: Any) -> Any:
-    content = bag.message("geometry_msgs/msg/Transform", translation=vector(bag, pose.x, pose.y), rotation=turn)
+def stamped_transform(bag: "BagWriter", stamp_ns: int, parent: str, child: str, x: float, y: float, turn: Any) -> Any:
+    """Return a geometry_msgs/TransformStamped of a shift and a geometry_msgs/Quaternion."""
+    content = bag.message("geometry_msgs/msg/Transform", translation=vector(bag, x, y), rotation=turn)
     header = bag.header(stamp_ns, parent)
     return bag.message("geometry_msgs/msg/TransformStamped", header=header, child_frame_id=child, transform=content)
 
 
-def transforms_message(bag: BagWriter, transforms: Iterable[Any]) -> Any:
+def transforms_message(bag: "BagWriter", transforms: Iterable[Any]) -> Any:
     """Return a tf2_msgs/TFMessage."""
     return bag.message("tf2_msgs/msg/TFMessage", transforms=list(transforms))
 
 
-def scan_message(bag: BagWriter, scan: LaserScan) -> Any:
+def scan_message(bag: "BagWriter", scan: LaserScan) -> Any:
     """Return a sensor_msgs/LaserScan."""
     last = float(np.float32(scan.angle_min + (len(scan) - 1) * scan.angle_increment))
     return bag.message(
@@ -86,7 +89,7 @@ def scan_message(bag: BagWriter, scan: LaserScan) -> Any:
     )
 
 
-def map_message(bag: BagWriter, stamp_ns: int, frame: str, grid: OccupancyGrid) -> Any:
+def map_message(bag: "BagWriter", stamp_ns: int, frame: str, grid: OccupancyGrid) -> Any:
     """Return a nav_msgs/OccupancyGrid; the message rounds the resolution to float32."""
     fields = grid_to_message_fields(grid)
     header = bag.header(stamp_ns, frame)
