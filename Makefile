@@ -29,7 +29,7 @@ lint: .venv/.lint
 	.venv/bin/mypy
 
 docs: .venv/.docs
-	rm -rf docs/api/generated
+	rm -rf docs/api/generated docs/_build
 	.venv/bin/sphinx-build --fail-on-warning --keep-going --quiet -b html docs docs/_build/html
 
 smoke:

@@ -12,6 +12,8 @@ from ial.contractors.contractor import Contractor
 
 Limit = Literal["", "boxes", "time"]
 
+_BATCH = 1 << 14  # larger ones sweep more of a map's table than the caches hold: a third slower on 400 × 400 m
+
 
 @dataclass(frozen=True)
 class Paving:
@@ -40,7 +42,7 @@ def pave(
     *,
     max_boxes: int,
     max_seconds: float | None = None,
-    batch: int = 1 << 18,
+    batch: int = _BATCH,
 ) -> Paving:
     """Return a paving of all points of `boxes` that satisfy the constraint of a contractor.
 

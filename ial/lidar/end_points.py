@@ -24,7 +24,8 @@ def _turned(px, py, s0, c0, s1, c1):  # type: ignore[no-untyped-def]
     """Return bounds of both coordinates of R(θ)·p for θ in [θ0, θ1], narrower than π, from the sines and cosines of its ends.
 
     x = px cos θ − py sin θ and y = px sin θ + py cos θ satisfy x' = −y and y' = x. So x has an inner maximum exactly where y passes zero
-    upwards, and so on; elsewhere the bounds are reached at the ends. The slack covers eight roundings of terms of this size.
+    upwards (x is then positive in the middle of the interval, and so the sum of its ends), and so on; elsewhere the bounds are reached at
+    the ends. The slack covers eight roundings of terms of this size.
     """
     slack = (abs(px) + abs(py)) * 2.0**-48
     x0 = px * c0 - py * s0
@@ -37,13 +38,13 @@ def _turned(px, py, s0, c0, s1, c1):  # type: ignore[no-untyped-def]
     yu = max(y0, y1) + slack
     if min(abs(x0), abs(x1)) <= slack or min(abs(y0), abs(y1)) <= slack or x0 * x1 < 0.0 or y0 * y1 < 0.0:
         radius = math.sqrt(px * px + py * py) + slack
-        if y0 <= slack and y1 >= -slack:
+        if y0 <= slack and y1 >= -slack and x0 + x1 >= -slack:
             xu = radius
-        if y0 >= -slack and y1 <= slack:
+        if y0 >= -slack and y1 <= slack and x0 + x1 <= slack:
             xl = -radius
-        if x0 >= -slack and x1 <= slack:
+        if x0 >= -slack and x1 <= slack and y0 + y1 >= -slack:
             yu = radius
-        if x0 <= slack and x1 >= -slack:
+        if x0 <= slack and x1 >= -slack and y0 + y1 <= slack:
             yl = -radius
     return xl, xu, yl, yu
 
