@@ -19,7 +19,7 @@ CARMEN = b"# a comment\n\nPARAM robot_width 0.4 1 host 1\nODOM 0 0 0 0 0 0 1 hos
     ("data", "kind"),
     [
         (CARMEN, CarmenLog),
-        (gzip.compress(CARMEN), CarmenLog),
+        (gzip.compress(CARMEN, mtime=0), CarmenLog),
         (b"ROBOTLASER1 0 1\n", CarmenLog),
         (b"O 1 2 3 0.1\nL 1 2 3\n", BeesoftLog),
         (b"#ROSBAG V2.0\n", RosBag),
