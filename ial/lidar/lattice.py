@@ -53,7 +53,8 @@ class Lattice:
             edges = _edges(layers)
             ranges = np.empty((len(boxes), 6), dtype=np.int64)
             _cell_ranges(boxes.lower, boxes.upper, step, edges, ranges)
-            if _tiles_met(ranges, layers) > _LARGEST_WORK:
+            largest = (ranges[:, 1::2] - ranges[:, ::2] + 1).prod(axis=1).max()
+            if level < 63 and (largest > max(max_cells, 8) or _tiles_met(ranges, layers) > _LARGEST_WORK):
                 continue
             keys, words = _filled_tiles(ranges, layers)
             cells = int(np.bitwise_count(words).sum())

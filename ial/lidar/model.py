@@ -115,7 +115,9 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
             max_boxes=self.config.max_boxes,
             max_seconds=self.config.max_seconds,
         )
-        cells = self.lattice.cover(paving.boxes, self.config.max_boxes)
+        # A search that was stopped leaves large boxes: finer cells than it had boxes would say no more.
+        most = 2 * len(paving.boxes) if paving.limited else self.config.max_boxes
+        cells = self.lattice.cover(paving.boxes, min(most, self.config.max_boxes))
         return PoseSet(cells, limited=paving.limited, nodes=paving.nodes)
 
     def in_domain(self, pose: Pose) -> bool:
