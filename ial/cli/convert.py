@@ -19,7 +19,10 @@ def convert(
     """Write a recording as .mcap or .bag; localizing that gives the same enclosures, bit for bit."""
     from ial.datasets.conversion import convert
     from ial.datasets.opening import open_recording
+    from ial.errors import OutputError
 
+    if target.exists() and recording.exists() and target.samefile(recording):
+        raise OutputError(f"{target}: this is the recording itself; give another file to write to")
     source = open_recording(recording, scan_topic, odom_topic, pose_of(laser_pose))
     count = convert(source, target)
     for reason, skipped in source.skipped.items():
