@@ -1,27 +1,127 @@
-"""The contractor protocol and the combinators `Intersection` and `Union`."""
+"""What a contractor is, and the operators ``&``, ``|`` and ``~`` between contractors."""
 
+from abc import ABC, abstractmethod
+from collections.abc import Iterable
+from importlib import import_module
 from typing import Protocol
 
-import numpy as np
-
 from ial.contractors.boxes import Boxes
+from ial.contractors.rounding import check_rounding
 
 
-class Contractor(Protocol):
-    """Narrows boxes without losing a solution: every point of an input box that satisfies the constraint is in its output box.
+class Dimensioned(Protocol):
+    """What has a number of variables."""
 
-    Output rows correspond to input rows in the same order; an emptied row is ``lower = +inf, upper = -inf`` in every dimension; the input
-    is not modified.
+    @property
+    def dimension(self) -> int:
+        """The number of variables d."""
+        ...
+
+
+class ContractorLike(Dimensioned, Protocol):
+    """What every combinator and paver accepts: a dimension and `contract`, with the meaning that `Contractor` gives them.
+
+    A class need not inherit from `Contractor` to be combined; it then only lacks the operators.
     """
-
-    dimension: int
 
     def contract(self, boxes: Boxes) -> Boxes:
         """Return the narrowed boxes."""
         ...
 
 
-def require_dimension(contractor: Contractor, boxes: Boxes) -> None:
+class Contractor(ABC):
+    """Narrows boxes without losing a solution: every point of an input box that satisfies the constraint is in its output box.
+
+    Output rows correspond to input rows in the same order; an emptied row is ``lower = +inf, upper = -inf`` in every dimension; the input
+    is not modified. A row is narrowed by itself, whatever other rows come with it. A subclass sets `dimension` and defines `contract`.
+
+    Contractors of one dimension combine: ``a & b`` stands for points that satisfy both constraints, ``a | b`` for points that satisfy at
+    least one, ``~a`` for points that do not satisfy one, where a contractor for these is known. See `combination.intersection`,
+    `combination.union` and `complement`.
+    """
+
+    dimension: int
+
+    @abstractmethod
+    def contract(self, boxes: Boxes) -> Boxes:
+        """Return the narrowed boxes."""
+
+    def complement(self) -> "ContractorLike":
+        """Return a contractor of the points that do not satisfy the constraint, or of these and the boundary.
+
+        Raises
+        ------
+        TypeError
+            If none is known, as for most constraints: a subclass that knows one overrides this.
+        """
+        raise TypeError(_unknown_complement(self))
+
+    def __and__(self, other: ContractorLike) -> "Contractor":
+        return _combined("intersection", [self, other])
+
+    def __rand__(self, other: ContractorLike) -> "Contractor":
+        return _combined("intersection", [other, self])
+
+    def __or__(self, other: ContractorLike) -> "Contractor":
+        return _combined("union", [self, other])
+
+    def __ror__(self, other: ContractorLike) -> "Contractor":
+        return _combined("union", [other, self])
+
+    def __invert__(self) -> ContractorLike:
+        return self.complement()
+
+
+def _combined(name: str, members: list[ContractorLike]) -> Contractor:
+    """Call a function of the room that is built on this one; it is found when an operator is used."""
+    found: Contractor = getattr(import_module("ial.contractors.combinators.combination"), name)(members)
+    return found
+
+
+class Combinator(Contractor):
+    """A contractor that is made of others. A subclass defines `_narrow`, which finds boxes of the right dimension."""
+
+    def contract(self, boxes: Boxes) -> Boxes:
+        """Return the narrowed boxes.
+
+        Raises
+        ------
+        ValueError
+            If the boxes are of another dimension.
+        RoundingModeError
+            If the processor does not round to nearest.
+        """
+        require_dimension(self, boxes)
+        check_rounding()
+        return self._narrow(boxes)
+
+    @abstractmethod
+    def _narrow(self, boxes: Boxes) -> Boxes: ...
+
+
+def complement(contractor: Dimensioned) -> ContractorLike:
+    """Return a contractor of the points that do not satisfy a constraint, or of these and the boundary.
+
+    Raises
+    ------
+    TypeError
+        If none is known.
+    """
+    own = getattr(contractor, "complement", None)
+    if own is None:
+        raise TypeError(_unknown_complement(contractor))
+    found: ContractorLike = own()
+    return found
+
+
+def _unknown_complement(contractor: object) -> str:
+    return (
+        f"no contractor is known for the points outside of {type(contractor).__name__}; "
+        "give its class a method complement(), or use a Separator(inner, outer), which holds both contractors"
+    )
+
+
+def require_dimension(contractor: Dimensioned, boxes: Boxes) -> None:
     """Raise unless the boxes have the dimension of a contractor.
 
     Raises
@@ -33,7 +133,7 @@ def require_dimension(contractor: Contractor, boxes: Boxes) -> None:
         raise ValueError(f"the boxes have {boxes.dimension} dimensions; {type(contractor).__name__} needs {contractor.dimension}")
 
 
-def common_dimension(contractors: tuple[Contractor, ...]) -> int:
+def common_dimension(contractors: Iterable[Dimensioned]) -> int:
     """Return the dimension that all of several contractors have.
 
     Raises
@@ -45,56 +145,3 @@ def common_dimension(contractors: tuple[Contractor, ...]) -> int:
     if len(dimensions) != 1:
         raise ValueError(f"the contractors have dimensions {sorted(dimensions)}; give at least one contractor, all of one dimension")
     return dimensions.pop()
-
-
-class Intersection:
-    """All of several constraints: the contractors are applied one after the other.
-
-    Parameters
-    ----------
-    contractors
-        At least one contractor, all of one dimension.
-    """
-
-    def __init__(self, *contractors: Contractor) -> None:
-        self.dimension = common_dimension(contractors)
-        self.contractors = contractors
-
-    def contract(self, boxes: Boxes) -> Boxes:
-        """Return the boxes narrowed by every contractor in turn.
-
-        Raises
-        ------
-        ValueError
-            If the boxes are of another dimension.
-        """
-        require_dimension(self, boxes)
-        for contractor in self.contractors:
-            boxes = contractor.contract(boxes)
-        return boxes
-
-
-class Union:
-    """At least one of several constraints: the hull of what the contractors leave of each box.
-
-    Parameters
-    ----------
-    contractors
-        At least one contractor, all of one dimension.
-    """
-
-    def __init__(self, *contractors: Contractor) -> None:
-        self.dimension = common_dimension(contractors)
-        self.contractors = contractors
-
-    def contract(self, boxes: Boxes) -> Boxes:
-        """Return, for each box, the hull of the boxes narrowed by each contractor.
-
-        Raises
-        ------
-        ValueError
-            If the boxes are of another dimension.
-        """
-        require_dimension(self, boxes)
-        parts = [contractor.contract(boxes) for contractor in self.contractors]
-        return Boxes(np.min([part.lower for part in parts], axis=0), np.max([part.upper for part in parts], axis=0))

@@ -16,6 +16,7 @@ from typing import Any
 
 import numba
 from numba.core.caching import FunctionCache, _CacheLocator
+from numba.core.ccallback import CFunc
 
 logger = logging.getLogger("ial.kernels")
 
@@ -104,6 +105,11 @@ class _Implementation(FunctionCache._impl_class):  # type: ignore[misc]
 class _Cache(FunctionCache):  # type: ignore[misc]
     _impl_class = _Implementation
 
+    def _index_key(self, sig: Any, codegen: Any) -> Any:
+        # The kernels that a function closes over are told apart by name; their code is part of the name of the folder.
+        cells = tuple(f"{cell.cell_contents.__module__}.{cell.cell_contents.__qualname__}" for cell in self._py_func.__closure__ or ())
+        return sig, codegen.magic_tuple(), cells
+
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         found = super().load_overload(sig, target_context)
         if found is None:
@@ -116,11 +122,35 @@ def _announce() -> None:
     logger.warning("compiling kernels, once (kept in %s)", cache_folder())
 
 
+def callback(function: Callable[..., Any], *arguments: Any, keep: bool = True) -> Any:
+    """Compile a function without a result, so that kernels can call it by its ``address`` without being compiled together with it.
+
+    Parameters
+    ----------
+    function
+        May close over kernels. Its ``__qualname__`` names it in the cache, so it must differ from those of the file's other callbacks.
+    *arguments
+        Numba's types of its arguments.
+    keep
+        Whether the compiled code is kept; only where all of it is ial's own, since only that is watched for changes.
+    """
+    compiled: Any = CFunc(function, (arguments, numba.types.void), {}, {"error_model": "numpy", "fastmath": False})
+    if keep:
+        compiled._cache = _Cache(function)
+    compiled.compile()
+    return compiled
+
+
 def kernel(function: Callable[..., Any]) -> Any:
     """Compile a function of numbers and arrays; it runs without Python's lock, so threads can share the work.
 
     Floating-point semantics stay those of IEEE 754: no fastmath, and a division by zero gives an infinity.
     """
-    dispatcher = numba.njit(nogil=True, error_model="numpy", fastmath=False, forceinline=True)(function)
+    dispatcher = compile_users(function)
     dispatcher._cache = _Cache(function)
     return dispatcher
+
+
+def compile_users(function: Callable[..., Any]) -> Any:
+    """Compile a function of a user, as `kernel` does; it is not kept, since its source is not watched for changes."""
+    return numba.njit(nogil=True, error_model="numpy", fastmath=False, forceinline=True)(function)

@@ -6,8 +6,9 @@ The full circle is exactly (`-PI_UPPER`, `PI_UPPER`): in doubles, [-π, π] does
 
 import numpy as np
 
-from ial.contractors.arithmetic import add, intersect, mul, unless
-from ial.contractors.elementary import LARGEST_ANGLE, PI_LOWER, PI_UPPER, TWO_PI_LOWER, TWO_PI_UPPER, atan2
+from ial.contractors.intervals.arithmetic import add, mul
+from ial.contractors.intervals.sets import intersect, unless
+from ial.contractors.intervals.trigonometric import LARGEST_ANGLE, PI_LOWER, PI_UPPER, TWO_PI_LOWER, TWO_PI_UPPER, atan2
 from ial.contractors.kernels import kernel
 
 

@@ -10,12 +10,12 @@ bit step. The residual of a sum comes from Knuth's TwoSum; that of a product, a 
 Kernels choose between values instead of branching (``|`` instead of ``or``), so that a loop over them can be vectorized.
 """
 
-from typing import Any
+import math
 
 import numpy as np
-from numba import types
-from numba.extending import intrinsic
 
+from ial.contractors.intervals.error_free import fma, sum_residual, two_product, two_sum
+from ial.contractors.intervals.sets import unless
 from ial.contractors.kernels import kernel
 from ial.contractors.rounding import down, up
 
@@ -23,26 +23,7 @@ from ial.contractors.rounding import down, up
 _SMALL = 2.0**-960
 _SCALE = 2.0**600
 _ROOT_SCALE = 2.0**300  # the square root of the scale
-
-
-@intrinsic
-def _fma(typingctx, a, b, c):  # type: ignore[no-untyped-def]
-    """Return a·b + c, rounded once (IEEE 754 fusedMultiplyAdd)."""
-
-    def codegen(context, builder, signature, args):  # type: ignore[no-untyped-def]
-        return builder.fma(*args)
-
-    return types.float64(types.float64, types.float64, types.float64), codegen
-
-
-fma: Any = _fma  # for a type checker, the intrinsic would have a parameter more than a kernel passes
-
-
-@kernel
-def sum_residual(a, b, rounded):  # type: ignore[no-untyped-def]
-    """Return a + b − rounded exactly; NaN where something is infinite."""
-    part = rounded - a
-    return (a - (rounded - part)) + (b - part)
+_LARGE = 2.0**1000
 
 
 @kernel
@@ -72,12 +53,6 @@ def _root_residual(a, rounded):  # type: ignore[no-untyped-def]
     small = abs(a) < _SMALL
     root = rounded * _ROOT_SCALE if small else rounded
     return fma(-root, root, a * _SCALE if small else a)
-
-
-@kernel
-def unless(empty, lower, upper):  # type: ignore[no-untyped-def]
-    """Return the bounds, or the empty interval."""
-    return np.inf if empty else lower, -np.inf if empty else upper
 
 
 @kernel
@@ -146,6 +121,31 @@ def div(al, au, bl, bu):  # type: ignore[no-untyped-def]
 
 
 @kernel
+def recip(al, au):  # type: ignore[no-untyped-def]
+    """Return {1 / x : x in a, x != 0}."""
+    return div(1.0, 1.0, al, au)
+
+
+@kernel
+def div_pieces(al, au, bl, bu):  # type: ignore[no-untyped-def]
+    """Return the one or two intervals of {x : x·b meets a}, the lower one first, as four bounds (IEEE 1788-2015, 10.5.5).
+
+    Two where b has points on both sides of 0 and a is apart from 0; otherwise the second is empty. The real line where both hold 0, since
+    x·0 = 0 holds for every x; in that alone it exceeds `div`.
+    """
+    if (al <= 0.0 <= au) and (bl <= 0.0 <= bu):
+        return -np.inf, np.inf, np.inf, -np.inf
+    if not (bl < 0.0 < bu):
+        lower, upper = div(al, au, bl, bu)
+        return lower, upper, np.inf, -np.inf
+    left, right = (0.0, bu) if au < 0.0 else (bl, 0.0)  # the part of b that gives the negative quotients
+    other_left, other_right = (bl, 0.0) if au < 0.0 else (0.0, bu)
+    lower, upper = div(al, au, left, right)
+    other_lower, other_upper = div(al, au, other_left, other_right)
+    return lower, upper, other_lower, other_upper
+
+
+@kernel
 def sqr(al, au):  # type: ignore[no-untyped-def]
     """Return {x² : x in a}."""
     small, large = absolute(al, au)
@@ -188,14 +188,87 @@ def maximum(al, au, bl, bu):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def intersect(al, au, bl, bu):  # type: ignore[no-untyped-def]
-    """Return the points of both a and b."""
-    lower = max(al, bl)
-    upper = min(au, bu)
-    return unless(lower > upper, lower, upper)
+def cancel_minus(al, au, bl, bu):  # type: ignore[no-untyped-def]
+    """Return the smallest z with b + z enclosing a, which undoes the addition of b (IEEE 1788-2015, 9.2, 10.5.6).
+
+    The real line where there is none: an operand is unbounded, b is empty and a is not, or b is wider than a.
+    """
+    bounded = (al > -np.inf) & (au < np.inf) & (bl > -np.inf) & (bu < np.inf)
+    lower, upper = sub(al, al, bl, bl)[0], sub(au, au, bu, bu)[1]
+    # b is wider than a if al − bl > au − bu. Rounded differences keep their order; if they are equal, the residuals have it. Differences
+    # that overflow are halved first, exactly, since all numbers in them are then large.
+    half = 0.5 if (abs(al - bl) == np.inf) & (abs(au - bu) == np.inf) else 1.0
+    low, low_rest = two_sum(half * al, -(half * bl))
+    high, high_rest = two_sum(half * au, -(half * bu))
+    fits = (low < high) | ((low == high) & (low_rest <= high_rest))
+    if al > au:
+        return (np.inf, -np.inf) if (bl > bu) | ((bl > -np.inf) & (bu < np.inf)) else (-np.inf, np.inf)
+    return (lower, upper) if bounded & (bl <= bu) & fits else (-np.inf, np.inf)
 
 
 @kernel
-def hull(al, au, bl, bu):  # type: ignore[no-untyped-def]
-    """Return the smallest interval around both a and b."""
-    return min(al, bl), max(au, bu)
+def cancel_plus(al, au, bl, bu):  # type: ignore[no-untyped-def]
+    """Return `cancel_minus` of a and −b."""
+    return cancel_minus(al, au, -bu, -bl)
+
+
+@kernel
+def _sum_sign(a, b, c, d):  # type: ignore[no-untyped-def]
+    """Return a number with the sign of a + b + c + d, for b the residual of a product rounded to a.
+
+    An expansion that grows by one number at a time (Shewchuk 1997, figure 6): exact, with its largest part decisive.
+    """
+    q, h1 = two_sum(c, b)
+    q, h2 = two_sum(q, a)
+    p, g1 = two_sum(d, h1)
+    p, g2 = two_sum(p, h2)
+    p, g3 = two_sum(p, q)
+    return p if p != 0.0 else g3 if g3 != 0.0 else g2 if g2 != 0.0 else g1
+
+
+@kernel
+def _fused_below(a, b, c):  # type: ignore[no-untyped-def]
+    """Return a·b + c rounded down; 0·∞ = 0."""
+    product = _product(a, b)
+    if abs(product + c) == np.inf and (abs(a) == np.inf or abs(b) == np.inf or abs(c) == np.inf):
+        return product + c
+    if a == 0.0 or b == 0.0:
+        return c
+    rounded = fma(a, b, c)
+    if abs(rounded) == np.inf:
+        return down(rounded)
+    if abs(product) > _SMALL and abs(product) < _LARGE and abs(c) < _LARGE:
+        high, low = two_product(a, b)
+        return down(rounded) if _sum_sign(high, low, c, -rounded) < 0.0 else rounded
+    # Elsewhere the factors are brought near 1, and the rest to the same scale. A summand far above the product is what the sum rounds to;
+    # of one far below the product only the sign matters, and any small number has it.
+    fa, ea = math.frexp(a)
+    fb, eb = math.frexp(b)
+    fc, ec = math.frexp(c)
+    high, low = two_product(fa, fb)
+    if c != 0.0 and ec - ea - eb > 100:
+        return down(rounded) if high < 0.0 else rounded
+    shift = ec - ea - eb if ec - ea - eb > -300 else -300
+    half = -(ea + eb) // 2
+    scaled = math.ldexp(math.ldexp(rounded, half), -(ea + eb) - half)
+    return down(rounded) if _sum_sign(high, low, math.ldexp(fc, shift), -scaled) < 0.0 else rounded
+
+
+@kernel
+def multiply_add(al, au, bl, bu, cl, cu):  # type: ignore[no-untyped-def]
+    """Return a·b + c, rounded once (IEEE 1788-2015, table 9.1, fma)."""
+    if al > au or bl > bu or cl > cu:
+        return np.inf, -np.inf
+    # Which products of bounds are the extremes follows from signs; two remain in question where both factors have points on both sides.
+    if al >= 0.0 or au <= 0.0:
+        if au <= 0.0:
+            al, au, bl, bu = -au, -al, -bu, -bl
+        low_a, high_a = al if bl >= 0.0 else au, au if bu >= 0.0 else al
+        return _fused_below(low_a, bl, cl), -_fused_below(-high_a, bu, -cu)
+    if bl >= 0.0 or bu <= 0.0:
+        if bu <= 0.0:
+            al, au, bl, bu = -au, -al, -bu, -bl
+        return _fused_below(al, bu, cl), -_fused_below(-au, bu, -cu)
+    lower = min(_fused_below(al, bu, cl), _fused_below(au, bl, cl))
+    upper = max(-_fused_below(-al, bl, -cu), -_fused_below(-au, bu, -cu))
+    return lower, upper

@@ -1,0 +1,1 @@
+"""Contractors and separators made of others."""

@@ -1,0 +1,1 @@
+"""Expressions, constraints and functions of boxes."""

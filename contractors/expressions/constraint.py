@@ -1,0 +1,218 @@
+"""`Constraint`: expressions that must lie in intervals, as a contractor by forward and backward evaluation."""
+
+from collections.abc import Sequence
+from typing import Any, Protocol
+
+import numpy as np
+
+from ial.contractors.boxes import Boxes, FloatArray
+from ial.contractors.contractor import Contractor, require_dimension
+from ial.contractors.expressions.derivative import conditions, met
+from ial.contractors.expressions.operation import Bounds
+from ial.contractors.expressions.tape import Node, Tape
+from ial.contractors.rounding import check_rounding
+
+
+class Space(Protocol):
+    """What a constraint knows of the variables."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The names of the variables."""
+        ...
+
+    @property
+    def dimension(self) -> int:
+        """The number of variables."""
+        ...
+
+
+Relation = tuple[Node, Bounds]
+"""An expression and the bounds it must lie in, two arrays of one value, or of one for each row of the constants."""
+
+
+class Constraint(Contractor):
+    """Expressions that must lie in intervals: {x : f_j(x) ∈ Y_j for all j}, where f_j is defined.
+
+    Made by comparing an expression, and joined by ``&``; boxes have one side for each variable of the space, in the order of declaration.
+    Contraction is HC4-revise on all expressions together: they are evaluated forward on the box, met with their intervals, and every
+    operation is followed backward to its operands.
+
+    Parameters
+    ----------
+    space
+        The variables.
+    relations
+        The expressions and their intervals.
+    text
+        How the constraint is printed.
+
+    References
+    ----------
+    Benhamou, Goualard, Granvilliers, Puget: Revising hull and box consistency, ICLP 1999.
+    """
+
+    def __init__(self, space: Any, relations: Sequence[Relation], text: str) -> None:
+        self.space: Space = space
+        self.dimension = self.space.dimension
+        self.relations = tuple(relations)
+        self.text = text
+        self.tape = Tape(self.dimension, [expression for expression, _ in relations])
+        rows = max(len(lower) for _, (lower, _) in relations)
+        self._targets = np.empty((2, rows, len(relations)))
+        for k, (_, bounds) in enumerate(relations):
+            self._targets[:, :, k] = bounds
+
+    @property
+    def axes(self) -> tuple[int, ...]:
+        """The sides of a box that the constraint depends on."""
+        return tuple(sorted(self.tape.axes.tolist()))
+
+    def contract(self, boxes: Boxes) -> Boxes:
+        """Return the narrowed boxes.
+
+        Raises
+        ------
+        ValueError
+            If the boxes are of another dimension.
+        RoundingModeError
+            If the processor does not round to nearest.
+        """
+        require_dimension(self, boxes)
+        return self.tape.narrow(boxes, self._targets)
+
+    def complement(self) -> Contractor:
+        """Return the points at which an expression lies outside its interval or is not defined, and the boundary."""
+        return Complement(self)
+
+    def __and__(self, other: Any) -> Any:
+        if type(other) is Constraint and type(self) is Constraint and other.space is self.space:
+            return Constraint(self.space, [*self.relations, *other.relations], f"({self}) & ({other})")
+        return super().__and__(other)
+
+    def __bool__(self) -> bool:
+        raise TypeError(
+            f"the constraint {self} has no truth value; write a & b instead of 'a and b', a | b instead of 'a or b', "
+            "and x == Interval(lower, upper) instead of 'lower <= x <= upper'"
+        )
+
+    def __repr__(self) -> str:
+        return self.text
+
+
+class ConstraintFamily(Constraint):
+    """The same for constants that differ from row to row: m constraints of one form, for example one for each beam of a scan.
+
+    As a contractor it stands for all of them; `relaxed`, `union` and `intersection` count it as m members.
+    """
+
+    @property
+    def count(self) -> int:
+        """The number of constraints m."""
+        return max(self.tape.count, self._targets.shape[1])
+
+    def contract_each(self, boxes: Boxes) -> tuple[FloatArray, FloatArray]:
+        """Return the bounds of each of n boxes narrowed by each of the m constraints, two arrays of shape (n, m, d).
+
+        Raises
+        ------
+        ValueError
+            If the boxes are of another dimension.
+        RoundingModeError
+            If the processor does not round to nearest.
+        """
+        require_dimension(self, boxes)
+        shape = (len(boxes), self.count, self.dimension)
+        found = self.tape.narrow(boxes, self._targets, members=self.count)
+        return found.lower.reshape(shape), found.upper.reshape(shape)
+
+    def contract_rows(self, boxes: Boxes) -> Boxes:
+        """Return each of m boxes narrowed by the constraint of its own row.
+
+        Raises
+        ------
+        ValueError
+            If there are not as many boxes as constraints, or they are of another dimension.
+        RoundingModeError
+            If the processor does not round to nearest.
+        """
+        require_dimension(self, boxes)
+        if len(boxes) != self.count:
+            raise ValueError(f"there are {len(boxes)} boxes and {self.count} constraints; give one box for each constraint")
+        return self.tape.narrow(boxes, self._targets)
+
+    def contract(self, boxes: Boxes) -> Boxes:
+        """Return the boxes narrowed by all m constraints, each applied to the box as it was given.
+
+        Raises
+        ------
+        ValueError
+            If the boxes are of another dimension.
+        RoundingModeError
+            If the processor does not round to nearest.
+        """
+        from ial.contractors.combinators.relaxation import Relaxed
+
+        return Relaxed(self, outliers=0).contract(boxes)
+
+
+class Complement(Contractor):
+    """The points that do not satisfy a constraint, because an expression lies outside its interval or is not defined.
+
+    Only boxes on which all expressions are defined everywhere are narrowed: what forward–backward contraction removes of another box might
+    be a point without a value, which is no solution.
+
+    Parameters
+    ----------
+    constraint
+        The constraint.
+    """
+
+    def __init__(self, constraint: Constraint) -> None:
+        self.dimension = constraint.dimension
+        self.constraint = constraint
+        expressions = [expression for expression, _ in constraint.relations]
+        self._guards, self._intervals = conditions(expressions, "defined")
+        self._guard = Tape(self.dimension, self._guards) if self._guards else None
+        # The complement of each interval is at most two half lines.
+        self._sides: list[tuple[Tape, FloatArray]] = []
+        for expression, (lower, upper) in constraint.relations:
+            tape = Tape(self.dimension, [expression])
+            for low, high in ((np.full_like(lower, -np.inf), lower), (upper, np.full_like(upper, np.inf))):
+                kept = (low < np.inf) & (high > -np.inf)
+                outside = np.where(lower > upper, -np.inf, low), np.where(lower > upper, np.inf, high)  # nothing lies in an empty interval
+                if kept.any():
+                    bounds = [np.where(kept, bound, empty)[:, None] for bound, empty in zip(outside, (np.inf, -np.inf), strict=True)]
+                    self._sides.append((tape, np.stack(bounds)))
+
+    def complement(self) -> Constraint:
+        """Return the constraint itself."""
+        return self.constraint
+
+    def contract(self, boxes: Boxes) -> Boxes:
+        """Return the narrowed boxes.
+
+        Raises
+        ------
+        ValueError
+            If the boxes are of another dimension.
+        RoundingModeError
+            If the processor does not round to nearest.
+        """
+        require_dimension(self, boxes)
+        check_rounding()
+        count = getattr(self.constraint, "count", 1)
+        shape = (len(boxes), count, self.dimension)
+        lower, upper = np.full(shape[::2], np.inf), np.full(shape[::2], -np.inf)
+        for tape, targets in self._sides:
+            part = tape.narrow(boxes, targets, members=count)
+            np.minimum(lower, part.lower.reshape(shape).min(axis=1), out=lower)
+            np.maximum(upper, part.upper.reshape(shape).max(axis=1), out=upper)
+        narrowed = Boxes(lower, upper)
+        if self._guard is None:
+            return narrowed
+        defined = np.asarray(met(self._guard.evaluate(boxes, count), self._intervals).reshape(shape[:2]).all(axis=1))
+        return Boxes(np.where(defined[:, None], lower, boxes.lower), np.where(defined[:, None], upper, boxes.upper))
+
+    def __repr__(self) -> str:
+        return f"~({self.constraint})"

@@ -1,0 +1,1 @@
+"""Contractors for relations of plane geometry."""

@@ -1,0 +1,1 @@
+"""Interval operations: kernels on pairs of bounds, and `Interval`."""

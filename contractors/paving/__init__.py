@@ -1,0 +1,1 @@
+"""The paver, and what it returns."""

@@ -1,0 +1,77 @@
+"""Separators: a set from the inside and from the outside at once."""
+
+from collections.abc import Sequence
+from importlib import import_module
+from typing import TypeGuard
+
+from ial.contractors.boxes import Boxes
+from ial.contractors.contractor import ContractorLike, common_dimension, complement
+
+
+class Separator:
+    """A set S as a pair of contractors: `outer` removes only points outside S, `inner` removes only points of S.
+
+    What `outer` leaves of a box covers the box's part in S, and what `inner` leaves covers its part outside S: between them lies, at least,
+    the boundary. Sets are closed: a point of the boundary may be kept by both, and one that `inner` keeps is not thereby proved to be
+    outside. A separator states no more than its two contractors prove.
+
+    ``a & b`` is the intersection of two sets, ``a | b`` their union, ``~a`` the complement, which only exchanges the two contractors.
+
+    Parameters
+    ----------
+    inner, outer
+        Contractors of one dimension: `outer` for the set, `inner` for its complement.
+
+    Raises
+    ------
+    ValueError
+        If the dimensions differ.
+
+    References
+    ----------
+    Jaulin, Desrochers: Introduction to the algebra of separators with application to path planning, Engineering Applications of
+    Artificial Intelligence 33 (2014).
+    """
+
+    def __init__(self, inner: ContractorLike, outer: ContractorLike) -> None:
+        self.dimension = common_dimension((inner, outer))
+        self.inner = inner
+        self.outer = outer
+
+    @classmethod
+    def of(cls, contractor: ContractorLike) -> "Separator":
+        """Return the separator of a contractor that knows its complement.
+
+        Raises
+        ------
+        TypeError
+            If it does not.
+        """
+        return Separator(inner=complement(contractor), outer=contractor)
+
+    def separate(self, boxes: Boxes) -> tuple[Boxes, Boxes]:
+        """Return the boxes narrowed by `inner`, and the same boxes narrowed by `outer`.
+
+        What the first lacks is inside the set, what the second lacks is outside; what both hold is undecided.
+        """
+        return self.inner.contract(boxes), self.outer.contract(boxes)
+
+    def __and__(self, other: "Separator") -> "Separator":
+        return _combined("intersection", [self, other])
+
+    def __or__(self, other: "Separator") -> "Separator":
+        return _combined("union", [self, other])
+
+    def __invert__(self) -> "Separator":
+        return Separator(inner=self.outer, outer=self.inner)
+
+
+def _combined(name: str, members: list[Separator]) -> Separator:
+    """Call a function of the room that is built on this one; it is found when an operator is used."""
+    found: Separator = getattr(import_module("ial.contractors.combinators.combination"), name)(members)
+    return found
+
+
+def are_separators(members: Sequence[object]) -> TypeGuard[Sequence[Separator]]:
+    """Return whether there are members and all of them are separators."""
+    return bool(members) and all(isinstance(member, Separator) for member in members)

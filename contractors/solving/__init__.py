@@ -1,0 +1,1 @@
+"""Problems of several constraints, and the zeros of systems."""
