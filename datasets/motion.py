@@ -6,11 +6,13 @@ from dataclasses import dataclass, field, fields
 import numpy as np
 import numpy.typing as npt
 
-from ial.contractors.angle import contains_angle, wrap_angle
-from ial.contractors.arithmetic import add, mul, sub
-from ial.contractors.elementary import cos, sin
+from ial.contractors.intervals.angle import contains_angle, wrap_angle
+from ial.contractors.intervals.arithmetic import add, sub
+from ial.contractors.intervals.interval import Interval
+from ial.contractors.intervals.rotation import rotate
+from ial.contractors.intervals.trigonometric import cos, hypot, sin
 from ial.contractors.kernels import kernel
-from ial.contractors.rounding import check_rounding, down, up
+from ial.contractors.rounding import check_rounding
 from ial.datasets.odometry import Odometry
 from ial.errors import ConfigError
 from ial.pose import Pose
@@ -19,14 +21,8 @@ from ial.pose import Pose
 @kernel
 def _rotate(x, y, heading, rotated):  # type: ignore[no-untyped-def]
     """Turn the point (x, y) by a heading; all are (lower, upper) pairs in arrays, the result goes to `rotated[0:2]`."""
-    cl, cu = cos(heading[0], heading[1])
-    sl, su = sin(heading[0], heading[1])
-    al, au = mul(cl, cu, x[0], x[1])
-    bl, bu = mul(sl, su, y[0], y[1])
-    rotated[0, 0], rotated[0, 1] = sub(al, au, bl, bu)
-    al, au = mul(sl, su, x[0], x[1])
-    bl, bu = mul(cl, cu, y[0], y[1])
-    rotated[1, 0], rotated[1, 1] = add(al, au, bl, bu)
+    turned = rotate(*cos(heading[0], heading[1]), *sin(heading[0], heading[1]), x[0], x[1], y[0], y[1])
+    rotated[0, 0], rotated[0, 1], rotated[1, 0], rotated[1, 1] = turned
 
 
 @kernel
@@ -119,7 +115,7 @@ def _pose_box(odometry: Odometry) -> npt.NDArray[np.float64]:
     pose = odometry.pose
     rows = np.empty((3, 2))
     for row, value, error in zip(rows, (pose.x, pose.y, pose.theta), (odometry.error_m,) * 2 + (odometry.error_rad,), strict=True):
-        row[:] = (down(value - error), up(value + error)) if error else value
+        row[:] = add(value, value, -error, error)
     return rows
 
 
@@ -154,9 +150,10 @@ class ErrorBound:
 
     def at(self, translation_m: float, rotation_rad: float) -> float:
         """Return the bound for a motion, rounded up."""
-        travelled = up(self.per_metre * translation_m) if self.per_metre else 0.0  # an unknown motion is infinite: 0 · ∞ is 0 here
-        turned = up(self.per_radian * rotation_rad) if self.per_radian else 0.0
-        return float(up(self.base + up(travelled + turned)))
+        # An unknown motion is infinite, so what was travelled is an interval that ends there.
+        travelled = self.per_metre * Interval(0.0, translation_m)
+        turned = self.per_radian * Interval(0.0, rotation_rad)
+        return (self.base + (travelled + turned)).upper
 
 
 @dataclass(frozen=True)
@@ -188,7 +185,8 @@ class MotionBounds:
         check_rounding()
         recorded = Motion.around(delta) if isinstance(delta, Pose) else delta
         dx, dy, turn = np.maximum(np.abs(recorded.lower), np.abs(recorded.upper)).tolist()
-        distance = up(up(math.hypot(dx, dy)))
+        distance = hypot(0.0, dx, 0.0, dy)[1]
         shift, twist = self.translation.at(distance, turn), self.rotation.at(distance, turn)
-        half = np.array([shift, shift, twist])
-        return Motion(np.nextafter(recorded.lower - half, -np.inf), np.nextafter(recorded.upper + half, np.inf))
+        bounds = zip(recorded.lower.tolist(), recorded.upper.tolist(), (shift, shift, twist), strict=True)
+        enclosed = np.array([add(lower, upper, -half, half) for lower, upper, half in bounds])
+        return Motion(enclosed[:, 0], enclosed[:, 1])

@@ -7,7 +7,8 @@ from enum import IntEnum
 import numpy as np
 import numpy.typing as npt
 
-from ial.contractors.rounding import check_rounding
+from ial.contractors.expressions.functions import add, mul
+from ial.contractors.expressions.operation import Bounds
 from ial.datasets.odometry import quaternion_heading
 from ial.errors import RecordingError
 from ial.pose import Pose
@@ -149,12 +150,9 @@ class LaserScan:
         RoundingModeError
             If the processor does not round to nearest.
         """
-        check_rounding()
         index = np.arange(len(self.ranges), dtype=np.float64)
-        centre = self.angle_min + index * self.angle_increment
-        slack = (_half_step(self.angle_min) + index * _half_step(self.angle_increment)) * _SAFETY
-        lower = _steps_outward(centre - slack, -np.inf)
-        upper = _steps_outward(centre + slack, np.inf)
+        first, increment = _read_as(self.angle_min), _read_as(self.angle_increment)
+        lower, upper = add.bounds(first, mul.bounds((index, index), increment))
         return (-upper, -lower) if self.mounting.upside_down else (lower, upper)
 
     def range_slack(self) -> npt.NDArray[np.float64]:
@@ -163,11 +161,7 @@ class LaserScan:
             return np.abs(np.spacing(self.ranges)).astype(np.float64) * (0.5 * _SAFETY)
 
 
-def _half_step(value: float) -> float:
-    """Return half the distance to the next float32."""
-    return 0.5 * abs(float(np.spacing(np.float32(value))))
-
-
-def _steps_outward(values: npt.NDArray[np.float64], direction: float) -> npt.NDArray[np.float64]:
-    """Return the values two doubles further: one for each of the two additions that made them."""
-    return np.nextafter(np.nextafter(values, direction), direction)
+def _read_as(value: float) -> Bounds:
+    """Return bounds of the real numbers that round to a float32."""
+    half_step = 0.5 * abs(float(np.spacing(np.float32(value))))
+    return add.bounds((np.array(value), np.array(value)), (np.array(-half_step), np.array(half_step)))

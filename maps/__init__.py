@@ -1,10 +1,11 @@
-"""Maps: occupancy grids, their files and messages, the index that contracts to their cells, and ray casting."""
+"""Maps: occupancy grids, their files and messages, contractors to their cells, and ray casting."""
 
 import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ial.maps.cell_index import CellContractor, CellIndex
+    from ial.maps.cell_contractor import CellContractor
+    from ial.maps.cell_index import CellIndex
     from ial.maps.grid_message import grid_from_message, grid_to_message_fields, read_map_topic
     from ial.maps.loading import load_map
     from ial.maps.map_file import read_map, write_map
@@ -31,7 +32,8 @@ __all__ = [
 ]
 
 _FILES = {
-    "cell_index": ("CellContractor", "CellIndex"),
+    "cell_contractor": ("CellContractor",),
+    "cell_index": ("CellIndex",),
     "grid_message": ("grid_from_message", "grid_to_message_fields", "read_map_topic"),
     "loading": ("load_map",),
     "map_file": ("read_map", "write_map"),

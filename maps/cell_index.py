@@ -1,4 +1,4 @@
-"""`CellIndex`: which rectangles meet a set of cells, answered in constant time; and the contractor to those cells.
+"""`CellIndex`: which rectangles meet a set of cells, answered in constant time.
 
 A summed-area table holds, for every corner of the grid, how many cells of the set lie to the left of it and below. Four look-ups give the
 number in any rectangle (Crow 1984). Rectangles are closed and in the grid frame, in metres; cells are closed squares, so a rectangle
@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors import threads
-from ial.contractors.arithmetic import mul
 from ial.contractors.boxes import Boxes
+from ial.contractors.intervals.arithmetic import mul
 from ial.contractors.kernels import kernel
 from ial.errors import MapError
 from ial.maps.occupancy_grid import check_resolution, check_size
@@ -122,14 +122,6 @@ def _meet_rows(start, stop, table, inverse_resolution, lower, upper, found):  # 
         found[i] = meets(table, inverse_resolution, lower[i, 0], upper[i, 0], lower[i, 1], upper[i, 1])
 
 
-@kernel
-def _contract_rows(start, stop, table, inverse_resolution, resolution, lower, upper, new_lower, new_upper):  # type: ignore[no-untyped-def]
-    for i in range(start, stop):
-        xl, xu, yl, yu = contract(table, inverse_resolution, resolution, lower[i, 0], upper[i, 0], lower[i, 1], upper[i, 1])
-        new_lower[i, 0], new_lower[i, 1] = xl, yl
-        new_upper[i, 0], new_upper[i, 1] = xu, yu
-
-
 class CellIndex:
     """A set of cells of a grid, with its summed-area table.
 
@@ -176,37 +168,6 @@ class CellIndex:
         found = np.empty(len(boxes), dtype=np.bool_)
         threads.run(_meet_rows, len(boxes), self.table, self.inverse_resolution, boxes.lower, boxes.upper, found)
         return found
-
-
-class CellContractor:
-    """The contractor of "this point lies in a cell of the set": boxes (x, y) shrink to the hull of their part in cells.
-
-    Parameters
-    ----------
-    index
-        The set of cells.
-    """
-
-    dimension = 2
-
-    def __init__(self, index: CellIndex) -> None:
-        self._index = index
-
-    def contract(self, boxes: Boxes) -> Boxes:
-        """Return the narrowed boxes, in the grid frame; the hull is the tightest in doubles.
-
-        Raises
-        ------
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
-        _check_plane(boxes)
-        lower, upper = np.empty_like(boxes.lower), np.empty_like(boxes.upper)
-        index = self._index
-        threads.run(
-            _contract_rows, len(boxes), index.table, index.inverse_resolution, index.resolution, boxes.lower, boxes.upper, lower, upper
-        )
-        return Boxes(lower, upper)
 
 
 def _check_plane(boxes: Boxes) -> None:

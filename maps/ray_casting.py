@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors import threads
-from ial.contractors.elementary import LARGEST_ANGLE, sincos
+from ial.contractors.intervals.trigonometric import LARGEST_ANGLE, sincos
 from ial.contractors.kernels import kernel
 from ial.maps.occupancy_grid import check_resolution, check_size
 

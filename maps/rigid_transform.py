@@ -7,20 +7,13 @@ the tightest such box, but for rounding. A rotation by exactly 0 only adds or su
 import numpy as np
 
 from ial.contractors import threads
-from ial.contractors.angle import wrap_angle
-from ial.contractors.arithmetic import add, mul, sub
 from ial.contractors.boxes import Boxes
-from ial.contractors.elementary import cos, sin
+from ial.contractors.intervals.angle import wrap_angle
+from ial.contractors.intervals.arithmetic import add, sub
+from ial.contractors.intervals.rotation import rotate
+from ial.contractors.intervals.trigonometric import cos, sin
 from ial.contractors.kernels import kernel
 from ial.pose import Pose
-
-
-@kernel
-def rotate(cl, cu, sl, su, xl, xu, yl, yu):  # type: ignore[no-untyped-def]
-    """Return (c·x − s·y, s·x + c·y) as four bounds."""
-    ul, uu = sub(*mul(cl, cu, xl, xu), *mul(sl, su, yl, yu))
-    vl, vu = add(*mul(sl, su, xl, xu), *mul(cl, cu, yl, yu))
-    return ul, uu, vl, vu
 
 
 @kernel
@@ -63,7 +56,7 @@ def boxes_from_frame(boxes: Boxes, pose: Pose) -> Boxes:
     Parameters
     ----------
     boxes
-        Boxes (x, y, θ) of shape (n, 3); θ as in `ial.contractors.angle`.
+        Boxes (x, y, θ) of shape (n, 3); θ as in `ial.contractors.intervals.angle`.
     pose
         T_outer_inner; its three numbers are taken as exact.
     """

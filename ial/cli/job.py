@@ -5,10 +5,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ial.cli.terminal import progress
-from ial.contractors.angle import wrap_angle
 from ial.contractors.boxes import Boxes
-from ial.contractors.rounding import check_rounding, down, up
+from ial.contractors.intervals.angle import wrap_angle
 from ial.contractors.threads import get_threads
 from ial.datasets.opening import open_recording
 from ial.datasets.recording import Recording
@@ -153,15 +154,14 @@ class Job:
         """Return the box in which the search starts, rounded outward; None for the whole map."""
         if self.initial is None or self.initial_radius is None:
             return None
-        check_rounding()
         x, y, theta = self.initial
         position, heading = self.initial_radius
-        box = Boxes.of([(down(value - error), up(value + error)) for value, error in ((x, position), (y, position), (theta, heading))])
-        if not (box.width() >= 0.0).all() or not (abs(box.lower) < 1e9).all():
+        if not (abs(np.array([*self.initial, *self.initial_radius])) < 1e9).all() or min(self.initial_radius) < 0.0:
             raise ConfigError(
                 f"--initial {x:g} {y:g} {theta:g} --initial-radius {position:g} {heading:g} is no region; give finite numbers, and "
                 "radii that are not negative"
             )
+        box = Boxes.around([self.initial], [position, position, heading])
         box.lower[0, 2], box.upper[0, 2] = wrap_angle(box.lower[0, 2], box.upper[0, 2])
         return box
 

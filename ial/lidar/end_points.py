@@ -2,7 +2,8 @@
 
 import math
 
-from ial.contractors.elementary import sincos
+from ial.contractors.intervals.rotation import turn_point
+from ial.contractors.intervals.trigonometric import sincos
 from ial.contractors.kernels import kernel
 
 MARGIN = 2.0**-28
@@ -17,36 +18,6 @@ NEAR = 2.0**16 + 2.0
 
 REACH = 2.0 * NEAR
 """Cells from the robot beyond which an end point is drawn in: from everywhere near it is outside the map either way."""
-
-
-@kernel
-def _turned(px, py, s0, c0, s1, c1):  # type: ignore[no-untyped-def]
-    """Return bounds of both coordinates of R(θ)·p for θ in [θ0, θ1], narrower than π, from the sines and cosines of its ends.
-
-    x = px cos θ − py sin θ and y = px sin θ + py cos θ satisfy x' = −y and y' = x. So x has an inner maximum exactly where y passes zero
-    upwards (x is then positive in the middle of the interval, and so the sum of its ends), and so on; elsewhere the bounds are reached at
-    the ends. The slack covers eight roundings of terms of this size.
-    """
-    slack = (abs(px) + abs(py)) * 2.0**-48
-    x0 = px * c0 - py * s0
-    y0 = px * s0 + py * c0
-    x1 = px * c1 - py * s1
-    y1 = px * s1 + py * c1
-    xl = min(x0, x1) - slack
-    xu = max(x0, x1) + slack
-    yl = min(y0, y1) - slack
-    yu = max(y0, y1) + slack
-    if min(abs(x0), abs(x1)) <= slack or min(abs(y0), abs(y1)) <= slack or x0 * x1 < 0.0 or y0 * y1 < 0.0:
-        radius = math.sqrt(px * px + py * py) + slack
-        if y0 <= slack and y1 >= -slack and x0 + x1 >= -slack:
-            xu = radius
-        if y0 >= -slack and y1 <= slack and x0 + x1 <= slack:
-            xl = -radius
-        if x0 >= -slack and x1 <= slack and y0 + y1 >= -slack:
-            yu = radius
-        if x0 <= slack and x1 >= -slack and y0 + y1 <= slack:
-            yl = -radius
-    return xl, xu, yl, yu
 
 
 @kernel
@@ -70,8 +41,8 @@ def relative_bounds(theta_lower, theta_upper, ends, directions, errors, map_erro
             radius = math.sqrt(px * px + py * py) * (1.0 + 2.0**-48) + along + across
             xl, xu, yl, yu = -radius, radius, -radius, radius
         else:
-            xl, xu, yl, yu = _turned(px, py, s0, c0, s1, c1)
-            dxl, dxu, dyl, dyu = _turned(directions[i, 0], directions[i, 1], s0, c0, s1, c1)
+            xl, xu, yl, yu = turn_point(px, py, s0, c0, s1, c1)
+            dxl, dxu, dyl, dyu = turn_point(directions[i, 0], directions[i, 1], s0, c0, s1, c1)
             most_x = max(abs(dxl), abs(dxu))
             most_y = max(abs(dyl), abs(dyu))
             wide_x = along * most_x + across * most_y

@@ -7,8 +7,8 @@ from typing import Literal
 import numpy as np
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.clusters import cluster
-from ial.contractors.paver import Limit
+from ial.contractors.paving.clusters import cluster
+from ial.contractors.paving.limits import Limit
 from ial.lidar.config import LocalizedSize
 from ial.lidar.pose_set import PoseSet
 from ial.maps.occupancy_grid import OccupancyGrid
@@ -96,7 +96,7 @@ class Estimate:
 
 def find_hypotheses(poses: PoseSet, grid: OccupancyGrid) -> tuple[Hypothesis, ...]:
     """Return the connected components of a set of poses, the largest volume first, in the map frame."""
-    clusters = cluster(poses.boxes)
+    clusters = cluster(poses.boxes, circular=(2,))
     in_map = grid.boxes_to_map(poses.boxes)
     volumes = np.maximum(poses.boxes.width(), 0.0).prod(axis=1)
     order = np.argsort(clusters.labels, kind="stable")

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes, FloatArray
-from ial.contractors.elementary import PI_UPPER
+from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.contractors.kernels import kernel
 
 _TILE_ROWS = 16

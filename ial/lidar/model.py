@@ -3,7 +3,7 @@
 import numpy as np
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.paver import pave
+from ial.contractors.paving.paver import pave
 from ial.datasets.motion import Motion
 from ial.errors import ConfigError
 from ial.lidar.beams import Beams
@@ -24,6 +24,7 @@ Finer parts exclude more, while whole cells stay connected and few. On intel_lab
 with exactly one hypothesis from 90 % to 94 %; a lattice of twice the fineness in itself lowers it to 89 %.
 """
 
+_BATCH = 1 << 14  # larger ones sweep more of a map's table than the caches hold: a third slower on 400 × 400 m
 _LAID_OUT_CELLS = 1 << 17  # above, a set is laid out coarser, and refined by the scan
 
 
@@ -114,6 +115,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
             self.lattice.widths / _PROBES,
             max_boxes=self.config.max_boxes,
             max_seconds=self.config.max_seconds,
+            batch=_BATCH,
         )
         # A search that was stopped leaves large boxes: finer cells than it had boxes would say no more.
         most = 2 * len(paving.boxes) if paving.limited else self.config.max_boxes

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from ial.contractors.combinators.relaxation import covered
 from ial.contractors.kernels import kernel
-from ial.contractors.relaxed import covered
 from ial.lidar.corners import OFFSET, corners
 from ial.maps.cell_index import columns_with_cells, count, rows_with_cells
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from ial.contractors.angle import contains_angle
 from ial.contractors.boxes import Boxes
-from ial.contractors.paver import Limit
+from ial.contractors.intervals.angle import contains_angle
+from ial.contractors.paving.limits import Limit
 from ial.pose import Pose
 
 

@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from ial.contractors.angle import wrap_angle
-from ial.contractors.arithmetic import add, mul, sub
 from ial.contractors.boxes import Boxes
-from ial.contractors.elementary import cos, sin
+from ial.contractors.intervals.angle import wrap_angle
+from ial.contractors.intervals.arithmetic import add
+from ial.contractors.intervals.rotation import rotate
+from ial.contractors.intervals.trigonometric import cos, sin
 from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 from ial.datasets.motion import Motion
@@ -18,14 +19,9 @@ def _move(start, stop, lower, upper, motion_lower, motion_upper, moved_lower, mo
     for row in range(start, stop):
         cl, cu = cos(lower[row, 2], upper[row, 2])
         sl, su = sin(lower[row, 2], upper[row, 2])
-        al, au = mul(cl, cu, dxl, dxu)
-        bl, bu = mul(sl, su, dyl, dyu)
-        al, au = sub(al, au, bl, bu)
-        moved_lower[row, 0], moved_upper[row, 0] = add(lower[row, 0], upper[row, 0], al, au)
-        al, au = mul(sl, su, dxl, dxu)
-        bl, bu = mul(cl, cu, dyl, dyu)
-        al, au = add(al, au, bl, bu)
-        moved_lower[row, 1], moved_upper[row, 1] = add(lower[row, 1], upper[row, 1], al, au)
+        ul, uu, vl, vu = rotate(cl, cu, sl, su, dxl, dxu, dyl, dyu)
+        moved_lower[row, 0], moved_upper[row, 0] = add(lower[row, 0], upper[row, 0], ul, uu)
+        moved_lower[row, 1], moved_upper[row, 1] = add(lower[row, 1], upper[row, 1], vl, vu)
         tl, tu = add(lower[row, 2], upper[row, 2], turn_l, turn_u)
         moved_lower[row, 2], moved_upper[row, 2] = wrap_angle(tl, tu)
 

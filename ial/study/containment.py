@@ -5,7 +5,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from ial.contractors.angle import contains_angle
+from ial.contractors.intervals.angle import contains_angle
 from ial.datasets.recording import Step
 from ial.datasets.trajectory import Trajectory
 from ial.lidar.beams import select_beams
