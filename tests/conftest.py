@@ -1,10 +1,12 @@
 """Where the test data lies: outside the repository, named by two variables."""
 
 import os
+from inspect import isfunction
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from numba.extending import is_jitted
 
 settings.register_profile("ial", deadline=None, derandomize=True)
 settings.load_profile("ial")
@@ -27,3 +29,8 @@ def data_folder() -> Path:
 def itf1788_folder() -> Path:
     """The folder of the ITF1788 interval test vectors."""
     return _folder("IAL_ITF1788")
+
+
+def pytest_make_parametrize_id(val: object) -> str | None:
+    """Name a function or a kernel by its name: the text of a kernel holds an address, which each worker has its own of."""
+    return val.__name__ if is_jitted(val) or isfunction(val) else None

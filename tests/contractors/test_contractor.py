@@ -1,60 +1,108 @@
 import numpy as np
 import pytest
 
-from ial.contractors import Boxes, Contractor, Intersection, Relaxed, Union
+from ial.contractors import (
+    Affine,
+    Boxes,
+    Contractor,
+    Intersection,
+    Union,
+    contractor,
+    fixpoint,
+    from_polar,
+    intersection,
+    lazy,
+    projection,
+    relaxed,
+    to_polar,
+    transform,
+    union,
+    where,
+)
+from ial.contractors.combinators.trivial_sets import EmptySet, WholeSpace
+from ial.contractors.contractor import common_dimension, complement, require_dimension
+from ial.errors import RoundingModeError
+from tests.contractors.shapes import Inside, Outside, Points, random_boxes, same, separator, sides
 
 
-class Inside:
-    """Narrows to one fixed box: the simplest contractor."""
+class Shape(Contractor):
+    """A box that inherits the operators and knows its complement."""
 
-    def __init__(self, *sides: tuple[float, float]) -> None:
-        self.sides = np.array(sides)
-        self.dimension = len(sides)
+    def __init__(self, *bounds: tuple[float, float]) -> None:
+        self.bounds = bounds
+        self.dimension = len(bounds)
 
     def contract(self, boxes: Boxes) -> Boxes:
-        lower, upper = np.maximum(boxes.lower, self.sides[:, 0]), np.minimum(boxes.upper, self.sides[:, 1])
-        empty = (lower > upper).any(axis=1, keepdims=True)
-        return Boxes(np.where(empty, np.inf, lower), np.where(empty, -np.inf, upper))
+        return Inside(*self.bounds).contract(boxes)
+
+    def complement(self) -> Outside:
+        return Outside(*self.bounds)
 
 
+LEFT, RIGHT = ((0, 2), (0, 5)), ((1, 3), (-1, 4))
 PLANE = Boxes.of([(-10, 10), (-10, 10)], [(1.5, 2.5), (0, 1)], [(7, 8), (7, 8)])
-LEFT, RIGHT = Inside((0, 2), (0, 5)), Inside((1, 3), (-1, 4))
 EMPTY = (np.inf, -np.inf)
 
 
-def sides(boxes: Boxes) -> list[list[tuple[float, float]]]:
-    return [list(zip(low, high, strict=True)) for low, high in zip(boxes.lower.tolist(), boxes.upper.tolist(), strict=True)]
+def test_and_is_the_intersection_also_with_a_stranger_on_either_side() -> None:
+    for both in (Shape(*LEFT) & Shape(*RIGHT), Shape(*LEFT) & Inside(*RIGHT), Inside(*LEFT) & Shape(*RIGHT)):
+        assert isinstance(both, Intersection)
+        assert sides(both.contract(PLANE)) == [[(1, 2), (0, 4)], [(1.5, 2), (0, 1)], [EMPTY, EMPTY]]
 
 
-def test_an_intersection_narrows_by_all() -> None:
-    assert sides(Intersection(LEFT, RIGHT).contract(PLANE)) == [[(1, 2), (0, 4)], [(1.5, 2), (0, 1)], [EMPTY, EMPTY]]
+def test_or_is_the_union_also_with_a_stranger_on_either_side() -> None:
+    for either in (Shape(*LEFT) | Shape(*RIGHT), Shape(*LEFT) | Inside(*RIGHT), Inside(*LEFT) | Shape(*RIGHT)):
+        assert isinstance(either, Union)
+        assert sides(either.contract(PLANE)) == [[(0, 3), (-1, 5)], [(1.5, 2.5), (0, 1)], [EMPTY, EMPTY]]
 
 
-def test_a_union_is_the_hull_of_all() -> None:
-    assert sides(Union(LEFT, RIGHT).contract(PLANE)) == [[(0, 3), (-1, 5)], [(1.5, 2.5), (0, 1)], [EMPTY, EMPTY]]
+def test_not_is_the_complement_where_one_is_known() -> None:
+    boxes = random_boxes(200, 2, seed=1)
+    assert same((~Shape(*LEFT)).contract(boxes), Outside(*LEFT).contract(boxes))
+    for unknown in (Points(np.zeros((1, 2))), Points(np.zeros((1, 2))) & Shape(*LEFT), Inside(*LEFT) | Shape(*LEFT)):
+        with pytest.raises(TypeError, match=r"no contractor is known for the points outside of (Points|Inside); .* Separator"):
+            _ = ~unknown
+    with pytest.raises(TypeError, match="outside of Inside"):
+        complement(Inside(*LEFT))
 
 
-def test_a_union_ignores_what_is_empty() -> None:
-    assert sides(Union(LEFT, Inside((7, 9), (7, 9))).contract(PLANE))[2] == [(7, 8), (7, 8)]
+def test_the_trivial_sets_are_each_others_complement() -> None:
+    boxes = random_boxes(50, 3, seed=2)
+    assert EmptySet(3).contract(boxes).empty.all()
+    assert same(WholeSpace(3).contract(boxes), boxes)
+    assert same((~EmptySet(3)).contract(boxes), boxes)
+    assert (~WholeSpace(3)).contract(boxes).empty.all()
 
 
-def test_combinators_nest_and_leave_their_input_alone() -> None:
-    before = sides(PLANE)
-    nested: Contractor = Intersection(Union(LEFT, RIGHT), Relaxed(LEFT, RIGHT, outliers=1))
-    assert sides(nested.contract(PLANE))[0] == [(0, 3), (-1, 5)]
-    assert sides(PLANE) == before
+def test_what_cannot_be_combined_is_refused_with_advice() -> None:
+    with pytest.raises(TypeError, match=r"int is not a contractor"):
+        Shape(*LEFT) & 3  # type: ignore[operator]
+    with pytest.raises(TypeError, match=r"Separators combine with separators only: Separator\.of"):
+        Shape(*LEFT) | separator(*RIGHT)  # type: ignore[operator]
+    with pytest.raises(TypeError, match=r"is not a contractor"):
+        separator(*RIGHT) & Shape(*LEFT)  # type: ignore[operator]
 
 
-@pytest.mark.parametrize("combine", [Intersection, Union, lambda *parts: Relaxed(*parts, outliers=0)])
-def test_contractors_of_different_dimension_are_refused(combine: type[Intersection]) -> None:
+def test_dimensions_are_compared() -> None:
+    assert common_dimension([Inside(*LEFT), Inside(*RIGHT)]) == 2
     with pytest.raises(ValueError, match=r"dimensions \[1, 2\]"):
-        combine(LEFT, Inside((0, 1)))
+        common_dimension([Inside(*LEFT), Inside((0, 1))])
     with pytest.raises(ValueError, match="at least one contractor"):
-        combine()
-    with pytest.raises(ValueError, match="needs 2"):
-        combine(LEFT).contract(Boxes.of([(0, 1)]))
+        common_dimension([])
+    with pytest.raises(ValueError, match="the boxes have 2 dimensions; Inside needs 1"):
+        require_dimension(Inside((0, 1)), PLANE)
 
 
-def test_no_boxes_stay_no_boxes() -> None:
-    for combined in (Intersection(LEFT, RIGHT), Union(LEFT, RIGHT), Relaxed(LEFT, RIGHT, outliers=1)):
-        assert len(combined.contract(Boxes.none(2))) == 0
+def test_every_combinator_looks_at_the_rounding_mode(monkeypatch: pytest.MonkeyPatch) -> None:
+    shape, turn = separator(*LEFT), Affine.rigid(0.0, 0.0, 1.0)
+    made = [combine([shape, shape]) for combine in (intersection, union, lazy)]
+    made += [relaxed([shape, shape], 1), fixpoint(shape), transform(shape, turn, turn.inverse), from_polar(shape), to_polar(shape)]
+    made += [where(shape, (0, 2), 3), projection(shape, (0,), [(0, 1)], 0.1)]
+
+    def refuse() -> None:
+        raise RoundingModeError("the processor does not round to nearest")
+
+    monkeypatch.setattr(contractor, "check_rounding", refuse)
+    for combined in [part for both in made for part in (both.inner, both.outer)] + [EmptySet(2), WholeSpace(2)]:
+        with pytest.raises(RoundingModeError):
+            combined.contract(Boxes.none(combined.dimension))

@@ -24,8 +24,9 @@ def run(*lines: str) -> str:
     """Run a script in a process of its own, since the mode stays; return what it prints."""
     script = textwrap.dedent("""
         import ctypes, ctypes.util
-        from ial.contractors import Boxes, Interval, Polar, check_rounding, relaxed_intersection
+        from ial.contractors import Boxes, Interval, RangeBearing, check_rounding, relaxed_intersection
         from ial.contractors import threads
+        from ial.contractors.expressions.functions import sin
         from ial.errors import RoundingModeError
         libm = ctypes.CDLL(ctypes.util.find_library("m") or "libm.so.6")
         check_rounding()
@@ -43,7 +44,8 @@ def run(*lines: str) -> str:
     return done.stdout.strip()
 
 
-WORK = "[refuses(work) for work in (lambda: a + a, lambda: a.sin(), lambda: -a, lambda: Polar().contract(b), check_rounding)]"
+ENTRIES = ("a + a", "sin(a)", "-a", "b + 1", "Interval(1) / 3", "Interval.parse('[1/3]')", "RangeBearing().contract(b)", "check_rounding()")
+WORK = f"[refuses(work) for work in ({', '.join(f'lambda: {entry}' for entry in ENTRIES)})]"
 
 
 @given(st.floats(allow_nan=False))
@@ -92,10 +94,10 @@ def test_every_entry_refuses_to_flush_subnormals() -> None:
 def test_a_worker_thread_in_another_mode_is_found() -> None:
     printed = run(
         "threads.set_threads(2)",
-        "Polar().contract(b)",
+        "RangeBearing().contract(b)",
         "pool = threads._executor(2)",
         f"for job in [pool.submit(libm.fesetround, {MODES['up'] if MODES else 0}) for _ in range(64)]: job.result()",
         "check_rounding()",
-        "print(refuses(lambda: Polar().contract(b)))",
+        "print(refuses(lambda: RangeBearing().contract(b)))",
     )
     assert printed == "True"

@@ -5,7 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from ial.contractors import Boxes, Polar, get_threads, set_threads
+from ial.contractors import Boxes, RangeBearing, get_threads, set_threads
 from ial.contractors.kernels import kernel
 from ial.contractors.threads import available_threads, run
 from ial.errors import ConfigError
@@ -47,18 +47,18 @@ def test_every_row_is_visited_once(threads: int, rows: int) -> None:
 
 def test_the_result_does_not_depend_on_the_number_of_threads(boxes: Boxes) -> None:
     set_threads(1)
-    one = Polar().contract(boxes)
+    one = RangeBearing().contract(boxes)
     assert 0 < one.empty.sum() < len(one)
     for threads in (2, 3):
         set_threads(threads)
-        assert same(Polar().contract(boxes), one)
+        assert same(RangeBearing().contract(boxes), one)
 
 
 def test_several_python_threads_may_call_at_once(boxes: Boxes) -> None:
     set_threads(2)
-    one = Polar().contract(boxes)
+    one = RangeBearing().contract(boxes)
     with ThreadPoolExecutor(4) as callers:
-        results = list(callers.map(lambda _: Polar().contract(boxes), range(12)))
+        results = list(callers.map(lambda _: RangeBearing().contract(boxes), range(12)))
     assert all(same(result, one) for result in results)
 
 
@@ -66,12 +66,12 @@ def test_several_python_threads_may_call_at_once(boxes: Boxes) -> None:
 @pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")  # Python 3.12 warns of any fork beside threads
 def test_a_forked_process_has_threads_of_its_own(boxes: Boxes) -> None:
     set_threads(2)
-    one = Polar().contract(boxes)
+    one = RangeBearing().contract(boxes)
     child = os.fork()
     if child == 0:
         signal.alarm(30)  # a child that waits for threads it does not have would wait for ever
         try:
-            os._exit(0 if same(Polar().contract(boxes), one) else 1)
+            os._exit(0 if same(RangeBearing().contract(boxes), one) else 1)
         finally:
             os._exit(2)
     assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0

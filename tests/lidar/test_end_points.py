@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ial.contractors.boxes import FloatArray
-from ial.contractors.elementary import PI_UPPER
+from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.lidar.end_points import MARGIN, NEAR, REACH, relative_bounds
 
 DIGITS = 50

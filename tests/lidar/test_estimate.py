@@ -4,9 +4,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ial.contractors.angle import contains_angle
 from ial.contractors.boxes import Boxes
-from ial.contractors.elementary import PI_UPPER
+from ial.contractors.intervals.angle import contains_angle
+from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.lidar.config import LocalizedSize
 from ial.lidar.estimate import Hypothesis, find_hypotheses, judge
 from ial.lidar.pose_set import PoseSet, unite

@@ -6,11 +6,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ial.contractors.angle import contains_angle
 from ial.contractors.boxes import Boxes, FloatArray
 from ial.contractors.contractor import Contractor
-from ial.contractors.elementary import PI_UPPER
-from ial.contractors.paver import pave
+from ial.contractors.intervals.angle import contains_angle
+from ial.contractors.intervals.trigonometric import PI_UPPER
+from ial.contractors.paving.paver import pave
 from ial.lidar.lattice import Lattice
 
 PLENTY = 10**6
@@ -44,7 +44,7 @@ def keys(lattice: Lattice, cells: Boxes, level: int) -> set[tuple[int, int, int]
 
 @st.composite
 def batches(draw: Callable[..., float]) -> tuple[Lattice, Boxes]:
-    """Return a lattice and boxes, many with bounds on the edges of its cells, headings in the form of `ial.contractors.angle`."""
+    """Return a lattice and boxes, many with bounds on the edges of its cells, headings in the form of `ial.contractors.intervals.angle`."""
     lattice = Lattice(draw(st.sampled_from([0.1, 0.25, 1.0, 0.3])), draw(st.sampled_from([0.1, 0.3, 0.5, 2.0, 4.0])))
     rows = []
     for _ in range(int(draw(st.integers(1, 4)))):

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.elementary import PI_UPPER
+from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.datasets.motion import Motion
 from ial.datasets.scan import LaserScan
 from ial.errors import ConfigError, MapError

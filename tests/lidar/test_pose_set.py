@@ -3,7 +3,7 @@ import math
 import numpy as np
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.elementary import PI_UPPER
+from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.lidar.pose_set import PoseSet, unite
 from ial.pose import Pose
 

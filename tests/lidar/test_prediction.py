@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from ial.contractors.boxes import Boxes, FloatArray
-from ial.contractors.elementary import PI_UPPER
+from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.contractors.threads import set_threads
 from ial.datasets.motion import Motion
 from ial.lidar.prediction import move

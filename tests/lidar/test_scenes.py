@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from ial.contractors.angle import contains_angle
+from ial.contractors.intervals.angle import contains_angle
 from ial.datasets.recording import steps
 from ial.lidar.estimate import Estimate
 from ial.lidar.localizer import Localizer

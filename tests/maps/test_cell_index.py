@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from ial.contractors import threads
 from ial.contractors.boxes import Boxes
 from ial.errors import MapError
-from ial.maps.cell_index import SLACK, CellContractor, CellIndex, count, meets
+from ial.maps.cell_contractor import CellContractor
+from ial.maps.cell_index import SLACK, CellIndex, count, meets
 from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
 
 RESOLUTIONS = (0.05, 0.1, 0.03, 0.02, float(np.float32(0.05)), 1 / 3, 0.5)

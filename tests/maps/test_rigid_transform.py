@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.elementary import PI_UPPER
+from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.maps.rigid_transform import boxes_from_frame, boxes_into_frame
 from ial.pose import Pose
 

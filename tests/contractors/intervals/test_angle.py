@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ial.contractors.angle import contains_angle, direction, intersect_angle, shift_angle, wrap_angle
-from ial.contractors.elementary import PI_UPPER, TWO_PI_LOWER
+from ial.contractors.intervals.angle import contains_angle, direction, intersect_angle, shift_angle, wrap_angle
+from ial.contractors.intervals.trigonometric import PI_UPPER, TWO_PI_LOWER
 from tests.contractors.oracles import EMPTY, ENTIRE
 
 CIRCLE = (-PI_UPPER, PI_UPPER)

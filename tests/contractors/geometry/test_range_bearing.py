@@ -5,9 +5,9 @@ import mpmath
 import numpy as np
 import pytest
 
-from ial.contractors import Boxes, Polar
+from ial.contractors import Boxes, RangeBearing
 from ial.contractors.boxes import FloatArray
-from ial.contractors.elementary import PI_UPPER
+from ial.contractors.intervals.trigonometric import PI_UPPER
 
 Sides = list[tuple[float, float]]
 ENTIRE = (-math.inf, math.inf)
@@ -50,7 +50,7 @@ def grown(points: FloatArray, seed: int) -> tuple[FloatArray, FloatArray]:
 
 
 def contract(*sides: tuple[float, float]) -> Sides:
-    boxes = Polar().contract(Boxes.of(sides))
+    boxes = RangeBearing().contract(Boxes.of(sides))
     return list(zip(boxes.lower[0].tolist(), boxes.upper[0].tolist(), strict=True))
 
 
@@ -62,7 +62,7 @@ def points() -> FloatArray:
 @pytest.mark.parametrize("seed", range(5))
 def test_a_point_that_satisfies_the_relation_is_never_lost(points: FloatArray, seed: int) -> None:
     lower, upper = grown(points, seed)
-    found = Polar().contract(Boxes(lower, upper))
+    found = RangeBearing().contract(Boxes(lower, upper))
     lost = ((found.lower > points[:, :, 0]) | (found.upper < points[:, :, 1])).any(axis=1)
     assert not lost.any(), (lower[lost][:2], upper[lost][:2], points[lost][:2])
 
@@ -72,7 +72,7 @@ def test_the_result_is_at_least_as_narrow_as_the_input(points: FloatArray, seed:
     shifted = points + np.random.default_rng(seed).normal(size=(len(points), 7, 1)) * 0.3
     lower, upper = grown(shifted, seed)
     before = lower.copy(), upper.copy()
-    found = Polar().contract(Boxes(lower, upper))
+    found = RangeBearing().contract(Boxes(lower, upper))
     assert (found.lower >= lower).all()
     assert (found.upper <= upper).all()
     assert (np.isposinf(found.lower[found.empty]) & np.isneginf(found.upper[found.empty])).all()
@@ -134,9 +134,9 @@ def test_a_point_out_of_reach_empties_the_row() -> None:
 
 def test_an_empty_row_stays_empty_and_others_are_kept_in_order() -> None:
     boxes = Boxes.of(KNOWN, [(math.inf, -math.inf)] * 7, KNOWN)
-    assert Polar().contract(boxes).empty.tolist() == [False, True, False]
+    assert RangeBearing().contract(boxes).empty.tolist() == [False, True, False]
 
 
 def test_boxes_of_another_dimension_are_refused() -> None:
-    with pytest.raises(ValueError, match="Polar needs 7"):
-        Polar().contract(Boxes.of([(0, 1)]))
+    with pytest.raises(ValueError, match="RangeBearing needs 7"):
+        RangeBearing().contract(Boxes.of([(0, 1)]))
