@@ -1,6 +1,9 @@
 """Sphinx builds the documentation from this; `make docs` turns every warning into an error."""
 
+import contextlib
+import runpy
 from importlib.metadata import version as version_of
+from pathlib import Path
 
 project = "ial"
 author = "the authors of ial"
@@ -27,3 +30,23 @@ napoleon_use_ivar = True
 html_theme = "sphinx_book_theme"
 html_title = "ial"
 html_theme_options = {"show_toc_level": 2, "use_download_button": False, "use_fullscreen_button": False}
+
+
+def draw_pictures(app):
+    """Run the examples of the pages, which write the pictures that the pages show."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    docs = Path(__file__).resolve().parent
+    examples = runpy.run_path(str(docs / "examples.py"))
+    pictures = docs / "_build" / "pictures"
+    pictures.mkdir(parents=True, exist_ok=True)
+    with contextlib.chdir(pictures):
+        for name in examples["PAGES"]:
+            for section in examples["sections"](docs / name).values():
+                examples["run"](docs / name, section)
+
+
+def setup(app):
+    """Draw before anything is read."""
+    app.connect("builder-inited", draw_pictures)
