@@ -7,6 +7,7 @@ Rows are independent and each is written by one thread, so the result never depe
 
 import itertools
 import os
+from collections import deque
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
@@ -79,16 +80,28 @@ def run(kernel: Callable[..., Any], rows: int, *arguments: Any, minimum: int = _
     RoundingModeError
         If a thread that runs the kernel does not round to nearest.
     """
-
-    def work(start: int, stop: int) -> None:
-        check_rounding()
-        kernel(start, stop, *arguments)
-
     threads = min(get_threads(), max(1, rows // minimum))
     if threads == 1:
-        work(0, rows)
+        check_rounding()
+        kernel(0, rows, *arguments)
         return
     chunks = min(threads * _CHUNKS_PER_THREAD, rows // minimum)
-    edges = [rows * i // chunks for i in range(chunks + 1)]
-    for done in [_executor(threads).submit(work, start, stop) for start, stop in itertools.pairwise(edges)]:
-        done.result()
+    waiting = deque(itertools.pairwise(rows * i // chunks for i in range(chunks + 1)))
+
+    def share() -> None:
+        """Take chunks, one after the other, until none waits: waking a thread for each would cost more than a chunk."""
+        check_rounding()
+        while waiting:
+            try:
+                start, stop = waiting.popleft()
+            except IndexError:  # another thread has taken the last one
+                return
+            kernel(start, stop, *arguments)
+
+    others = [_executor(threads).submit(share) for _ in range(threads - 1)]
+    try:
+        share()
+    finally:
+        waiting.clear()
+        for other in others:
+            other.result()

@@ -1,5 +1,6 @@
 """`Constraint`: expressions that must lie in intervals, as a contractor by forward and backward evaluation."""
 
+import functools
 from collections.abc import Sequence
 from typing import Any, Protocol
 
@@ -203,16 +204,15 @@ class Complement(Contractor):
         check_rounding()
         count = getattr(self.constraint, "count", 1)
         shape = (len(boxes), count, self.dimension)
-        lower, upper = np.full(shape[::2], np.inf), np.full(shape[::2], -np.inf)
-        for tape, targets in self._sides:
-            part = tape.narrow(boxes, targets, members=count)
-            np.minimum(lower, part.lower.reshape(shape).min(axis=1), out=lower)
-            np.maximum(upper, part.upper.reshape(shape).max(axis=1), out=upper)
-        narrowed = Boxes(lower, upper)
+        parts = [tape.narrow(boxes, targets, members=count) for tape, targets in self._sides]
+        if count > 1:
+            parts = [Boxes(part.lower.reshape(shape).min(axis=1), part.upper.reshape(shape).max(axis=1)) for part in parts]
+        narrowed = functools.reduce(Boxes.__or__, parts) if parts else boxes.where(np.zeros(len(boxes), dtype=np.bool_))
         if self._guard is None:
             return narrowed
         defined = np.asarray(met(self._guard.evaluate(boxes, count), self._intervals).reshape(shape[:2]).all(axis=1))
-        return Boxes(np.where(defined[:, None], lower, boxes.lower), np.where(defined[:, None], upper, boxes.upper))
+        keep = defined[:, None]
+        return Boxes(np.where(keep, narrowed.lower, boxes.lower), np.where(keep, narrowed.upper, boxes.upper))
 
     def __repr__(self) -> str:
         return f"~({self.constraint})"

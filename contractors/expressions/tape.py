@@ -16,6 +16,8 @@ from ial.contractors.intervals.interval import Interval
 from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 
+_SHARED_STEPS = 1 << 15  # so many instructions on one row each take as long as waking a thread
+
 
 class Node(Protocol):
     """What a tape reads of an expression: a variable has an axis, a constant has bounds, anything else an operation and operands."""
@@ -132,6 +134,11 @@ class Tape:
             self._program = np.array(rows, dtype=np.int64).reshape(-1, 6)
         return self._program
 
+    @property
+    def _share(self) -> int:
+        """The smallest number of rows worth a thread of its own."""
+        return max(LANES, _SHARED_STEPS // (1 + len(self._instructions)))
+
     def evaluate(self, boxes: Boxes, members: int = 1) -> Bounds:
         """Return the natural extension: bounds of every output on every box, each float64 of shape (n·members, outputs).
 
@@ -144,10 +151,8 @@ class Tape:
         """
         rows = len(boxes) * members
         lower, upper = np.empty((rows, len(self.outputs))), np.empty((rows, len(self.outputs)))
-        run(
-            *(_evaluate, rows, boxes.lower, boxes.upper, members, self.axes, self.constants, self.program, self.outputs, lower, upper),
-            minimum=2 * LANES,
-        )
+        given = (boxes.lower, boxes.upper, members, self.axes, self.constants, self.program, self.outputs)
+        run(_evaluate, rows, *given, lower, upper, minimum=self._share)
         return lower, upper
 
     def narrow(self, boxes: Boxes, targets: FloatArray, members: int = 1, rounds: int = 1) -> Boxes:
@@ -167,22 +172,22 @@ class Tape:
         rows = len(boxes) * members
         lower, upper = np.empty((rows, self.dimension)), np.empty((rows, self.dimension))
         given = (boxes.lower, boxes.upper, members, self.axes, self.constants, self.program, self.outputs, targets, rounds)
-        run(_narrow, rows, *given, lower, upper, minimum=2 * LANES)
+        run(_narrow, rows, *given, lower, upper, minimum=self._share)
         return Boxes(lower, upper)
 
 
 @kernel
 def _load_variables(lanes, first, count, lower, upper, members, axes):  # type: ignore[no-untyped-def]
     for v in range(len(axes)):
-        axis = axes[v]
-        if members == 1:
-            for i in range(count):
-                lanes[v, 0, i] = lower[first + i, axis]
-                lanes[v, 1, i] = upper[first + i, axis]
-        else:
-            for i in range(count):
-                lanes[v, 0, i] = lower[(first + i) // members, axis]
-                lanes[v, 1, i] = upper[(first + i) // members, axis]
+        # Counting rows, since a division for each of them would cost more than the rest.
+        box, member = divmod(first, members)
+        for i in range(count):
+            lanes[v, 0, i] = lower[box, axes[v]]
+            lanes[v, 1, i] = upper[box, axes[v]]
+            member += 1
+            if member == members:
+                member = 0
+                box += 1
 
 
 @kernel
@@ -193,8 +198,60 @@ def _load_constants(lanes, first, count, slot, constants):  # type: ignore[no-un
             if rows == 1:
                 lanes[slot + k, side, :count] = constants[side, 0, k]
             else:
+                row = first % rows
                 for i in range(count):
-                    lanes[slot + k, side, i] = constants[side, (first + i) % rows, k]
+                    lanes[slot + k, side, i] = constants[side, row, k]
+                    row = row + 1 if row + 1 < rows else 0
+
+
+@kernel
+def _meet_targets(lanes, first, count, outputs, targets):  # type: ignore[no-untyped-def]
+    rows = targets.shape[1]
+    for k in range(len(outputs)):
+        output = lanes[outputs[k]]
+        if rows == 1:
+            low, high = targets[0, 0, k], targets[1, 0, k]
+            for i in range(count):
+                output[0, i] = max(output[0, i], low)
+                output[1, i] = min(output[1, i], high)
+        else:
+            row = first % rows
+            for i in range(count):
+                output[0, i] = max(output[0, i], targets[0, row, k])
+                output[1, i] = min(output[1, i], targets[1, row, k])
+                row = row + 1 if row + 1 < rows else 0
+
+
+@kernel
+def _mark_empty(lanes, count, slots, empty):  # type: ignore[no-untyped-def]
+    for k in range(len(slots)):
+        for i in range(count):
+            empty[i] = 1.0 if lanes[slots[k], 0, i] > lanes[slots[k], 1, i] else empty[i]
+
+
+@kernel
+def _all_marked(empty, count):  # type: ignore[no-untyped-def]
+    for i in range(count):  # noqa: SIM110 - Numba compiles a loop to less than a generator
+        if empty[i] == 0.0:
+            return False
+    return True
+
+
+@kernel
+def _store(lanes, first, count, lower, upper, members, places, empty, out_lower, out_upper):  # type: ignore[no-untyped-def]
+    """Write the boxes: sides of variables from the lanes, the others as they were, all sides empty where one is."""
+    for axis in range(lower.shape[1]):
+        place = places[axis]
+        box, member = divmod(first, members)
+        for i in range(count):
+            low = lanes[place, 0, i] if place >= 0 else lower[box, axis]
+            high = lanes[place, 1, i] if place >= 0 else upper[box, axis]
+            out_lower[first + i, axis] = np.inf if empty[i] > 0.0 else low
+            out_upper[first + i, axis] = -np.inf if empty[i] > 0.0 else high
+            member += 1
+            if member == members:
+                member = 0
+                box += 1
 
 
 @kernel
@@ -237,34 +294,22 @@ def _evaluate(start, stop, lower, upper, members, axes, constants, program, outp
 @kernel
 def _narrow(start, stop, lower, upper, members, axes, constants, program, outputs, targets, rounds, out_lower, out_upper):  # type: ignore[no-untyped-def]
     lanes = np.empty((len(axes) + constants.shape[2] + len(program), 2, LANES))
-    empty = np.empty(LANES, dtype=np.bool_)
-    rows = targets.shape[1]
-    dimension = lower.shape[1]
+    empty = np.empty(LANES)  # 1.0 marks an empty row; a double, since loops over values of one size are vectorized
+    variables = np.arange(len(axes))
+    places = np.full(lower.shape[1], -1)
+    places[axes] = variables
     for first in range(start, stop, LANES):
         count = min(LANES, stop - first)
         _load_variables(lanes, first, count, lower, upper, members, axes)
-        empty[:] = False
+        empty[:] = 0.0
         for _ in range(rounds):
             # Going backward narrows constants as well, so they are written anew in every round.
             _load_constants(lanes, first, count, len(axes), constants)
             _forward(lanes, count, program)
-            for k in range(len(outputs)):
-                output = lanes[outputs[k]]
-                for i in range(count):
-                    row = 0 if rows == 1 else (first + i) % rows
-                    output[0, i] = max(output[0, i], targets[0, row, k])
-                    output[1, i] = min(output[1, i], targets[1, row, k])
-                    empty[i] |= output[0, i] > output[1, i]
+            _meet_targets(lanes, first, count, outputs, targets)
+            _mark_empty(lanes, count, outputs, empty)
+            if _all_marked(empty, count):  # often so: neighbours in space are neighbours in a batch
+                break
             _backward(lanes, count, program)
-        for v in range(len(axes)):
-            for i in range(count):
-                empty[i] |= lanes[v, 0, i] > lanes[v, 1, i]
-        for i in range(count):
-            box = (first + i) // members
-            for axis in range(dimension):
-                out_lower[first + i, axis] = np.inf if empty[i] else lower[box, axis]
-                out_upper[first + i, axis] = -np.inf if empty[i] else upper[box, axis]
-        for v in range(len(axes)):
-            for i in range(count):
-                out_lower[first + i, axes[v]] = np.inf if empty[i] else lanes[v, 0, i]
-                out_upper[first + i, axes[v]] = -np.inf if empty[i] else lanes[v, 1, i]
+        _mark_empty(lanes, count, variables, empty)
+        _store(lanes, first, count, lower, upper, members, places, empty, out_lower, out_upper)

@@ -133,16 +133,25 @@ def div_pieces(al, au, bl, bu):  # type: ignore[no-untyped-def]
     Two where b has points on both sides of 0 and a is apart from 0; otherwise the second is empty. The real line where both hold 0, since
     x·0 = 0 holds for every x; in that alone it exceeds `div`.
     """
-    if (al <= 0.0 <= au) and (bl <= 0.0 <= bu):
-        return -np.inf, np.inf, np.inf, -np.inf
-    if not (bl < 0.0 < bu):
-        lower, upper = div(al, au, bl, bu)
-        return lower, upper, np.inf, -np.inf
-    left, right = (0.0, bu) if au < 0.0 else (bl, 0.0)  # the part of b that gives the negative quotients
-    other_left, other_right = (bl, 0.0) if au < 0.0 else (0.0, bu)
+    both = (bl < 0.0) & (bu > 0.0)
+    everything = (al <= 0.0) & (au >= 0.0) & (bl <= 0.0) & (bu >= 0.0)
+    positive = au < 0.0  # which part of b gives the negative quotients
+    left = 0.0 if both & positive else bl
+    right = 0.0 if both & (not positive) else bu
+    other_left = bl if positive else 0.0
+    other_right = 0.0 if positive else bu
     lower, upper = div(al, au, left, right)
     other_lower, other_upper = div(al, au, other_left, other_right)
+    lower, upper = (-np.inf, np.inf) if everything else (lower, upper)
+    other_lower, other_upper = unless(everything | (not both), other_lower, other_upper)
     return lower, upper, other_lower, other_upper
+
+
+@kernel
+def product_at_most(a, b, c):  # type: ignore[no-untyped-def]
+    """Return whether a·b <= c, exactly, for numbers a and b and an upper bound c; 0·∞ = 0."""
+    product = _product(a, b)
+    return (product < c) | ((product == c) & (not _product_residual(a, b, product) > 0.0))  # NaN where both are infinite
 
 
 @kernel

@@ -11,7 +11,7 @@ others are the inverse function met with the prior, and as tight as that functio
 
 import numpy as np
 
-from ial.contractors.intervals.arithmetic import div_pieces, mul, sqr, sqrt
+from ial.contractors.intervals.arithmetic import div_pieces, product_at_most, sqr, sqrt
 from ial.contractors.intervals.exponential import (
     acosh,
     asinh,
@@ -26,7 +26,7 @@ from ial.contractors.intervals.exponential import (
     sinh,
     tanh,
 )
-from ial.contractors.intervals.sets import hull, intersect
+from ial.contractors.intervals.sets import hull, intersect, unless
 from ial.contractors.kernels import kernel
 
 
@@ -38,13 +38,17 @@ def abs_reverse(cl, cu, xl, xu):  # type: ignore[no-untyped-def]
 
 
 @kernel
+def _solves(x, bl, bu, cl, cu):  # type: ignore[no-untyped-def]
+    """Return whether x·b is in c for some b; exact."""
+    return product_at_most(x, bl if x >= 0.0 else bu, cu) & product_at_most(-x, bu if x >= 0.0 else bl, -cl)
+
+
+@kernel
 def _roots(cl, cu, low, high, xl, xu):  # type: ignore[no-untyped-def]
     """Return the roots of c on one side of 0 within x, given bounds of them."""
     lower, upper = intersect(low, high, xl, xu)
     # A root rounded outward may meet the prior in one double only, which need not be a root itself.
-    if lower == upper and (sqr(lower, lower)[0] < cl or sqr(lower, lower)[1] > cu):
-        return np.inf, -np.inf
-    return lower, upper
+    return unless((lower == upper) & (not _solves(lower, lower, lower, cl, cu)), lower, upper)
 
 
 @kernel
@@ -61,20 +65,11 @@ def sqrt_reverse(cl, cu, xl, xu):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _solves(x, bl, bu, cl, cu):  # type: ignore[no-untyped-def]
-    """Return whether x·b is in c for some b; exact, because a product and a bound are compared by a product rounded the right way."""
-    first, last = (bl, bu) if x >= 0.0 else (bu, bl)
-    return (mul(x, x, first, first)[1] <= cu) & (mul(x, x, last, last)[0] >= cl)
-
-
-@kernel
 def _piece(bl, bu, cl, cu, low, high, xl, xu):  # type: ignore[no-untyped-def]
     """Return a piece of c / b within x."""
     lower, upper = intersect(low, high, xl, xu)
     # As above: one double is where a bound rounded outward, or one that is a limit only, meets the prior.
-    if lower == upper and not _solves(lower, bl, bu, cl, cu):
-        return np.inf, -np.inf
-    return lower, upper
+    return unless((lower == upper) & (not _solves(lower, bl, bu, cl, cu)), lower, upper)
 
 
 @kernel
