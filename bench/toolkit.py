@@ -22,7 +22,7 @@ Python; ial on one thread and on all. Each time is the least of up to five runs,
 *error* is the area or volume of the boxes that are neither proved inside nor outside (for a contractor alone: of all boxes, less that of
 the set where it is known). Where codac can use its centred form, both ways are measured; beside it stands `mean_value`."""
 ENOUGH_S = 0.5  # what takes longer is run once
-PRECISIONS = {"test": (0.1, 0.01, 0.001), "separator": (0.1, 0.01, 0.001, 0.0001), "contractor": (0.1, 0.03, 0.01)}
+PRECISIONS = {"test": (0.1, 0.01, 0.001), "separator": (0.01, 1e-3, 1e-4, 1e-5), "contractor": (0.1, 0.01, 0.003)}
 FORMS = {"test": "sivia", "separator": "SepInverse", "contractor": "CtcInverse"}
 BEACONS, WRONG, RANGE_ERROR_M, FIELD_M = 15, 3, 0.5, 50.0
 POLAR_BOXES = 20_000
@@ -207,7 +207,7 @@ def localization(report: Report) -> None:
 
     def lines() -> Iterator[list[str]]:
         arguments = {"places": places.tolist(), "ranges": np.stack([low, high], axis=1).tolist(), "outliers": WRONG}
-        for precision in (1.0, 0.1, 0.01):
+        for precision in (0.1, 0.01, 0.001):
             ways = [theirs("beacons", **arguments, side=[-FIELD_M, FIELD_M], precision=precision, centred=way) for way in (False, True)]
             other = min(ways, key=lambda way: way.seconds)
             yield [f"{precision:g} m", *beside(other, *on_threads(relaxed([family], outliers=WRONG), start, precision))]

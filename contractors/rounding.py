@@ -45,6 +45,12 @@ def up(x):  # type: ignore[no-untyped-def]
 
 
 @kernel
+def stepped(x, steps):  # type: ignore[no-untyped-def]
+    """Return x >= 0 moved by so many doubles, which must lead neither below 0 nor beyond infinity; cheaper than `down` and `up`."""
+    return _double(_bits(x) + steps)
+
+
+@kernel
 def _rounds_to_nearest(tiny, least_normal):  # type: ignore[no-untyped-def]
     """Try the processor; the arguments come at run time, or the compiler would answer for it."""
     nearest = 1.0 + tiny == 1.0 and 1.0 - tiny == 1.0 and -1.0 - tiny == -1.0

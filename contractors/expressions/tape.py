@@ -180,10 +180,11 @@ class Tape:
 def _load_variables(lanes, first, count, lower, upper, members, axes):  # type: ignore[no-untyped-def]
     for v in range(len(axes)):
         # Counting rows, since a division for each of them would cost more than the rest.
+        low, high = lanes[v]
         box, member = divmod(first, members)
         for i in range(count):
-            lanes[v, 0, i] = lower[box, axes[v]]
-            lanes[v, 1, i] = upper[box, axes[v]]
+            low[i] = lower[box, axes[v]]
+            high[i] = upper[box, axes[v]]
             member += 1
             if member == members:
                 member = 0
@@ -208,25 +209,20 @@ def _load_constants(lanes, first, count, slot, constants):  # type: ignore[no-un
 def _meet_targets(lanes, first, count, outputs, targets):  # type: ignore[no-untyped-def]
     rows = targets.shape[1]
     for k in range(len(outputs)):
-        output = lanes[outputs[k]]
-        if rows == 1:
-            low, high = targets[0, 0, k], targets[1, 0, k]
-            for i in range(count):
-                output[0, i] = max(output[0, i], low)
-                output[1, i] = min(output[1, i], high)
-        else:
-            row = first % rows
-            for i in range(count):
-                output[0, i] = max(output[0, i], targets[0, row, k])
-                output[1, i] = min(output[1, i], targets[1, row, k])
-                row = row + 1 if row + 1 < rows else 0
+        low, high = lanes[outputs[k]]
+        row = first % rows
+        for i in range(count):
+            low[i] = max(low[i], targets[0, row, k])
+            high[i] = min(high[i], targets[1, row, k])
+            row = row + 1 if row + 1 < rows else 0
 
 
 @kernel
 def _mark_empty(lanes, count, slots, empty):  # type: ignore[no-untyped-def]
     for k in range(len(slots)):
+        low, high = lanes[slots[k]]
         for i in range(count):
-            empty[i] = 1.0 if lanes[slots[k], 0, i] > lanes[slots[k], 1, i] else empty[i]
+            empty[i] = 1.0 if low[i] > high[i] else empty[i]
 
 
 @kernel

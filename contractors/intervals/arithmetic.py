@@ -17,7 +17,7 @@ import numpy as np
 from ial.contractors.intervals.error_free import fma, sum_residual, two_product, two_sum
 from ial.contractors.intervals.sets import unless
 from ial.contractors.kernels import kernel
-from ial.contractors.rounding import down, up
+from ial.contractors.rounding import down, stepped, up
 
 # Below these magnitudes a residual could underflow to zero and hide that a result is inexact; operands are then scaled, which is exact.
 _SMALL = 2.0**-960
@@ -160,9 +160,17 @@ def sqr(al, au):  # type: ignore[no-untyped-def]
     small, large = absolute(al, au)
     lower = small * small
     upper = large * large
-    lower = down(lower) if _product_residual(small, small, lower) < 0.0 else lower
-    upper = up(upper) if _product_residual(large, large, upper) > 0.0 else upper
+    lower = stepped(lower, -1 if _product_residual(small, small, lower) < 0.0 else 0)
+    upper = stepped(upper, 1 if _product_residual(large, large, upper) > 0.0 else 0)
     return unless(al > au, lower, upper)
+
+
+@kernel
+def square_within(x, al, au):  # type: ignore[no-untyped-def]
+    """Return whether x² is in a, exactly, for a number x."""
+    square = x * x
+    residual = _product_residual(x, x, square)
+    return ((square > al) | ((square == al) & (residual >= 0.0))) & ((square < au) | ((square == au) & (residual <= 0.0)))
 
 
 @kernel
@@ -173,8 +181,8 @@ def sqrt(al, au):  # type: ignore[no-untyped-def]
     au = max(au, 0.0)
     lower = np.sqrt(al)
     upper = np.sqrt(au)
-    lower = down(lower) if _root_residual(al, lower) < 0.0 else lower
-    upper = up(upper) if _root_residual(au, upper) > 0.0 else upper
+    lower = stepped(lower, -1 if _root_residual(al, lower) < 0.0 else 0)
+    upper = stepped(upper, 1 if _root_residual(au, upper) > 0.0 else 0)
     return unless(empty, lower, upper)
 
 

@@ -11,7 +11,7 @@ others are the inverse function met with the prior, and as tight as that functio
 
 import numpy as np
 
-from ial.contractors.intervals.arithmetic import div_pieces, product_at_most, sqr, sqrt
+from ial.contractors.intervals.arithmetic import div_pieces, product_at_most, sqr, sqrt, square_within
 from ial.contractors.intervals.exponential import (
     acosh,
     asinh,
@@ -38,17 +38,11 @@ def abs_reverse(cl, cu, xl, xu):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _solves(x, bl, bu, cl, cu):  # type: ignore[no-untyped-def]
-    """Return whether x·b is in c for some b; exact."""
-    return product_at_most(x, bl if x >= 0.0 else bu, cu) & product_at_most(-x, bu if x >= 0.0 else bl, -cl)
-
-
-@kernel
 def _roots(cl, cu, low, high, xl, xu):  # type: ignore[no-untyped-def]
     """Return the roots of c on one side of 0 within x, given bounds of them."""
     lower, upper = intersect(low, high, xl, xu)
     # A root rounded outward may meet the prior in one double only, which need not be a root itself.
-    return unless((lower == upper) & (not _solves(lower, lower, lower, cl, cu)), lower, upper)
+    return unless((lower == upper) & (not square_within(lower, cl, cu)), lower, upper)
 
 
 @kernel
@@ -62,6 +56,12 @@ def sqr_reverse(cl, cu, xl, xu):  # type: ignore[no-untyped-def]
 def sqrt_reverse(cl, cu, xl, xu):  # type: ignore[no-untyped-def]
     """Return {x : √x in c} within x."""
     return intersect(*sqr(*intersect(cl, cu, 0.0, np.inf)), xl, xu)
+
+
+@kernel
+def _solves(x, bl, bu, cl, cu):  # type: ignore[no-untyped-def]
+    """Return whether x·b is in c for some b; exact."""
+    return product_at_most(x, bl if x >= 0.0 else bu, cu) & product_at_most(-x, bu if x >= 0.0 else bl, -cl)
 
 
 @kernel
