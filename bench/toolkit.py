@@ -21,7 +21,7 @@ The same problems at the same precision, codac {VERSION} in a process of its own
 Python; ial on one thread and on all. Each time is the least of up to five runs, kernels compiled beforehand. *Nodes* are boxes contracted;
 *error* is the area or volume of the boxes that are neither proved inside nor outside (for a contractor alone: of all boxes, less that of
 the set where it is known). Where codac can use its centred form, both ways are measured; beside it stands `mean_value`."""
-ENOUGH_S = 0.5  # what takes longer is run once
+ENOUGH_S = 2.0  # what takes longer is run once
 PRECISIONS = {"test": (0.1, 0.01, 0.001), "separator": (0.01, 1e-3, 1e-4, 1e-5), "contractor": (0.1, 0.01, 0.003)}
 FORMS = {"test": "sivia", "separator": "SepInverse", "contractor": "CtcInverse"}
 BEACONS, WRONG, RANGE_ERROR_M, FIELD_M = 15, 3, 0.5, 50.0

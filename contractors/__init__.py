@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from ial.contractors.expressions.constraint import Constraint as Constraint
     from ial.contractors.expressions.constraint import ConstraintFamily as ConstraintFamily
     from ial.contractors.expressions.expression import Expression as Expression
-    from ial.contractors.expressions.expression import variables as variables
     from ial.contractors.expressions.function import Function as Function
     from ial.contractors.expressions.function_family import FunctionFamily as FunctionFamily
     from ial.contractors.expressions.functions import absolute as absolute
@@ -70,6 +69,7 @@ if TYPE_CHECKING:
     from ial.contractors.expressions.functions import trunc as trunc
     from ial.contractors.expressions.mean_value import mean_value as mean_value
     from ial.contractors.expressions.operation import Operation as Operation
+    from ial.contractors.expressions.variables import variables as variables
     from ial.contractors.geometry.annulus import Annulus as Annulus
     from ial.contractors.geometry.coordinates import from_polar as from_polar
     from ial.contractors.geometry.coordinates import to_polar as to_polar
@@ -120,7 +120,7 @@ else:
             "combinators.relaxation": ("Relaxed", "relaxed", "relaxed_intersection"),
             "contractor": ("Contractor", "ContractorLike"),
             "expressions.constraint": ("Constraint", "ConstraintFamily"),
-            "expressions.expression": ("Expression", "variables"),
+            "expressions.expression": ("Expression",),
             "expressions.function": ("Function",),
             "expressions.function_family": ("FunctionFamily",),
             "expressions.functions": (
@@ -168,6 +168,7 @@ else:
             ),
             "expressions.mean_value": ("mean_value",),
             "expressions.operation": ("Operation",),
+            "expressions.variables": ("variables",),
             "geometry.annulus": ("Annulus",),
             "geometry.coordinates": ("from_polar", "to_polar"),
             "geometry.distance": ("Distance",),

@@ -21,7 +21,7 @@ from numba.core.ccallback import CFunc
 logger = logging.getLogger("ial.kernels")
 
 _PACKAGE = Path(__file__).resolve().parent
-_MARK = b"import kernel"  # every file that defines a kernel imports the decorator by this name
+_MARK = b"ial.contractors.kernels import"  # every file that defines a kernel has this
 _KEPT = 4  # folders of earlier sources that stay, so that two checkouts or branches do not evict each other
 
 

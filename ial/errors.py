@@ -25,5 +25,9 @@ class OutputError(IalError):
     """A result that cannot be written."""
 
 
+class PavingError(IalError):
+    """A file that holds no paving."""
+
+
 class RoundingModeError(IalError):
     """The processor does not round to nearest, or flushes subnormal numbers to zero: no bound could be trusted."""

@@ -2,7 +2,7 @@
 
 import functools
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -10,23 +10,9 @@ from ial.contractors.boxes import Boxes, FloatArray
 from ial.contractors.contractor import Contractor, require_dimension
 from ial.contractors.expressions.derivative import conditions, met
 from ial.contractors.expressions.operation import Bounds
+from ial.contractors.expressions.space import Space
 from ial.contractors.expressions.tape import Node, Tape
 from ial.contractors.rounding import check_rounding
-
-
-class Space(Protocol):
-    """What a constraint knows of the variables."""
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The names of the variables."""
-        ...
-
-    @property
-    def dimension(self) -> int:
-        """The number of variables."""
-        ...
-
 
 Relation = tuple[Node, Bounds]
 """An expression and the bounds it must lie in, two arrays of one value, or of one for each row of the constants."""
@@ -53,9 +39,9 @@ class Constraint(Contractor):
     Benhamou, Goualard, Granvilliers, Puget: Revising hull and box consistency, ICLP 1999.
     """
 
-    def __init__(self, space: Any, relations: Sequence[Relation], text: str) -> None:
-        self.space: Space = space
-        self.dimension = self.space.dimension
+    def __init__(self, space: Space, relations: Sequence[Relation], text: str) -> None:
+        self.space = space
+        self.dimension = space.dimension
         self.relations = tuple(relations)
         self.text = text
         self.tape = Tape(self.dimension, [expression for expression, _ in relations])

@@ -2,7 +2,6 @@
 
 import math
 import numbers
-import re
 from collections.abc import Sequence
 from decimal import Decimal
 from typing import Any
@@ -13,33 +12,12 @@ from ial.contractors.boxes import Boxes
 from ial.contractors.expressions import functions
 from ial.contractors.expressions.constraint import Constraint, ConstraintFamily
 from ial.contractors.expressions.operation import Bounds, Operation
+from ial.contractors.expressions.space import Space
 from ial.contractors.expressions.tape import ordered
 from ial.contractors.intervals.interval import Interval
 
 _LONGEST = 400  # a longer part of a formula is not written out
 _SIGNS = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
-_NAME = re.compile(r"([^\W\d]\w*)(?:\[(\d+)\])?")
-
-
-class Space:
-    """The variables that were declared together; a box has one side for each, in this order.
-
-    Parameters
-    ----------
-    names
-        The names of the variables.
-    """
-
-    def __init__(self, names: Sequence[str]) -> None:
-        self.names = tuple(names)
-
-    @property
-    def dimension(self) -> int:
-        """The number of variables."""
-        return len(self.names)
-
-    def __repr__(self) -> str:
-        return f"Space({' '.join(self.names)})"
 
 
 class Expression:
@@ -224,50 +202,6 @@ class Expression:
             text = f"({texts[0]})" if base is not None and base.name in ("neg", "sqr", "pown") else texts[0]
             return f"{text}**{texts[1] if name == 'pown' else 2}"
         return f"-{texts[0]}" if name == "neg" else f"{name}({', '.join(texts)})"
-
-
-def variables(names: str) -> Any:
-    """Return the variables of a new space.
-
-    Parameters
-    ----------
-    names
-        Names between blanks. ``p[3]`` declares a vector of three variables, a NumPy array that can be indexed and multiplied with matrices.
-
-    Returns
-    -------
-    Expression, numpy.ndarray or tuple of them
-        One for each name.
-
-    Raises
-    ------
-    ValueError
-        If there is no name, one is no name or stands twice, or a vector has no members.
-
-    Examples
-    --------
-    >>> from ial.contractors import Interval, sqrt, variables
-    >>> x, y = variables("x y")
-    >>> sqrt((x - 1) ** 2 + (y - 2) ** 2) == Interval(3, 4)
-    sqrt(((x - 1)**2 + (y - 2)**2)) == [3.0, 4.0]
-    """
-    words = [_NAME.fullmatch(word) for word in names.split()] if isinstance(names, str) else []
-    if not words or not all(word and int(word[2] or 1) for word in words):
-        raise ValueError(f"{names!r} declares no variables; give names between blanks, such as 'x y p[3]'")
-    found = [(word[1], word[2]) for word in words if word]
-    if len({name for name, _ in found}) < len(found):
-        raise ValueError(f"{names!r} declares a name twice")
-    space = Space([part for name, size in found for part in ([f"{name}[{i}]" for i in range(int(size))] if size else [name])])
-    axes = iter(range(space.dimension))
-    declared: list[Any] = []
-    for _, size in found:
-        if size:
-            vector = np.empty(int(size), dtype=object)
-            vector[:] = [Expression(space, axis=next(axes)) for _ in range(int(size))]
-            declared.append(vector)
-        else:
-            declared.append(Expression(space, axis=next(axes)))
-    return declared[0] if len(declared) == 1 else tuple(declared)
 
 
 def _is_number(other: Any) -> bool:

@@ -84,18 +84,18 @@ def _backward_loop(operation: Any, arity: int) -> Callable[..., None]:
 
 
 @kernel
-def _apply(start, stop, address, operands, out):  # type: ignore[no-untyped-def]
-    """Write an operation's results on flat arrays: operands (3, 2, n), out (2, n)."""
-    lanes = np.empty((4, 2, LANES))
+def _apply(start, stop, address, operands, lower, upper):  # type: ignore[no-untyped-def]
+    """Write an operation's results on flat arrays: lower and upper bounds of the first operand, of the second, and so on."""
+    lanes = np.empty((8, LANES))
     at = lanes.ctypes.data
     for first in range(start, stop, LANES):
-        count = min(LANES, stop - first)
+        last = min(first + LANES, stop)
+        count = last - first
         for k in range(len(operands)):
-            for side in range(2):
-                lanes[k, side, :count] = operands[k, side, first : first + count]
+            lanes[k, :count] = operands[k][first:last]
         call(address, count, at, at + 16 * LANES, at + 32 * LANES, at + 48 * LANES)
-        for side in range(2):
-            out[side, first : first + count] = lanes[3, side, :count]
+        lower[first:last] = lanes[6, :count]
+        upper[first:last] = lanes[7, :count]
 
 
 class Operation:
@@ -215,11 +215,19 @@ class Operation:
             If the processor does not round to nearest.
         """
         check_rounding()
-        sides = np.broadcast_arrays(*(np.asarray(side, dtype=np.float64) for operand in operands for side in operand))
-        stacked = np.stack([side.ravel() for side in sides]).reshape(self.arity, 2, -1)
-        out = np.empty(stacked.shape[1:])
-        run(_apply, out.shape[1], self.forward_loop.address, stacked, out, minimum=1 << 12)
-        return out[0].reshape(sides[0].shape), out[1].reshape(sides[0].shape)
+        sides = [np.asarray(side, dtype=np.float64) for operand in operands for side in operand]
+        shape = np.broadcast_shapes(*(side.shape for side in sides))
+        flat = tuple(_flat(side, shape) for side in sides)
+        lower, upper = np.empty(len(flat[0])), np.empty(len(flat[0]))
+        run(_apply, len(lower), self.forward_loop.address, flat, lower, upper, minimum=1 << 14)
+        return lower.reshape(shape), upper.reshape(shape)
+
+
+def _flat(side: FloatArray, shape: tuple[int, ...]) -> FloatArray:
+    """Return an array of a shape as one row, copied only if it must be, and read-only always, since kernels are compiled for either."""
+    flat = np.ascontiguousarray(np.broadcast_to(side, shape)).reshape(-1)
+    flat.flags.writeable = False
+    return flat
 
 
 def _cell(operand: Any) -> Any:

@@ -8,13 +8,9 @@ import numpy as np
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.paving.limits import Limit
-from ial.errors import IalError, OutputError
+from ial.errors import OutputError, PavingError
 
 _FORMAT = "ial paving 1"
-
-
-class PavingError(IalError):
-    """A file of a paving that cannot be read."""
 
 
 def write(path: str | Path, inner: Boxes, boundary: Boxes, limited: Limit, nodes: int) -> None:

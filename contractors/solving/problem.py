@@ -10,8 +10,9 @@ from ial.contractors.combinators.family import Member, members_of
 from ial.contractors.combinators.trivial_sets import WholeSpace
 from ial.contractors.contractor import Combinator
 from ial.contractors.expressions.constraint import Constraint, ConstraintFamily
-from ial.contractors.expressions.expression import Expression, Space
+from ial.contractors.expressions.expression import Expression
 from ial.contractors.expressions.mean_value import mean_value
+from ial.contractors.expressions.space import Space
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.paving.paver import pave
 from ial.contractors.paving.paving import Paving

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ial.contractors import Boxes, Interval
-from ial.contractors.expressions.expression import variables
+from ial.contractors.expressions.variables import variables
 
 TWO = Boxes.of([(0, 1), (2, 4)], [(5, 7), (0, 1)])
 EMPTY = (np.inf, -np.inf)

@@ -9,9 +9,9 @@ import pytest
 from ial.contractors.boxes import Boxes
 from ial.contractors.combinators.cylinder import where
 from ial.contractors.combinators.relaxation import relaxed
-from ial.contractors.expressions.expression import variables
 from ial.contractors.expressions.function_family import FunctionFamily
 from ial.contractors.expressions.functions import cos, sin
+from ial.contractors.expressions.variables import variables
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.contractors.paving.paving import Paving

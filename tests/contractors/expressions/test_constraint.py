@@ -8,8 +8,8 @@ from ial.contractors.boxes import Boxes
 from ial.contractors.combinators.relaxation import relaxed
 from ial.contractors.contractor import complement
 from ial.contractors.expressions.constraint import Complement, Constraint, ConstraintFamily
-from ial.contractors.expressions.expression import variables
 from ial.contractors.expressions.functions import OPERATIONS, div, hypot, log, rootn, sqrt
+from ial.contractors.expressions.variables import variables
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.separator import Separator
 from tests.contractors.formulas import assert_same, boxes_around, is_known, lost, random_formula, real_value

@@ -5,9 +5,9 @@ import numpy as np
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.expressions.derivative import conditions, gradient, met
-from ial.contractors.expressions.expression import variables
 from ial.contractors.expressions.functions import OPERATIONS, atan2, exp, floor, log, sin, sqrt
 from ial.contractors.expressions.tape import Tape
+from ial.contractors.expressions.variables import variables
 from ial.contractors.intervals.interval import Interval
 from tests.contractors.formulas import SMOOTH, is_known, random_formula, real_value
 

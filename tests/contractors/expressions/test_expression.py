@@ -9,9 +9,10 @@ import pytest
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.expressions.constraint import Constraint, ConstraintFamily
-from ial.contractors.expressions.expression import Expression, variables
+from ial.contractors.expressions.expression import Expression
 from ial.contractors.expressions.function import Function
 from ial.contractors.expressions.functions import absolute, cos, hypot, log, minimum, multiply_add, neg, pow, sin, sqrt
+from ial.contractors.expressions.variables import variables
 from ial.contractors.intervals.interval import Interval
 
 x, y = variables("x y")

@@ -5,9 +5,9 @@ import pytest
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.contractor import complement
-from ial.contractors.expressions.expression import variables
 from ial.contractors.expressions.function import Function, Inverse, Outside
 from ial.contractors.expressions.functions import cos, floor, hypot, log, sin, sqrt
+from ial.contractors.expressions.variables import variables
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.separator import Separator
 from tests.contractors.formulas import boxes_around, lost

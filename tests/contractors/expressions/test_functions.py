@@ -8,11 +8,11 @@ import pytest
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.expressions import functions
-from ial.contractors.expressions.expression import variables
 from ial.contractors.expressions.function import Function
 from ial.contractors.expressions.functions import OPERATIONS
 from ial.contractors.expressions.operation import Operation
 from ial.contractors.expressions.tape import Tape
+from ial.contractors.expressions.variables import variables
 from ial.contractors.intervals.interval import Interval
 from tests.contractors.formulas import EXPONENTS, REAL, SMOOTH, lost, operands_of
 from tests.contractors.oracles import Pairs, intervals

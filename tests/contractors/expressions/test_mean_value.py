@@ -5,9 +5,9 @@ import pytest
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.contractor import complement
-from ial.contractors.expressions.expression import variables
 from ial.contractors.expressions.functions import floor, hypot, maximum, minimum, sin, sqrt
 from ial.contractors.expressions.mean_value import MeanValue, mean_value
+from ial.contractors.expressions.variables import variables
 from ial.contractors.intervals.interval import Interval
 from tests.contractors.formulas import SMOOTH, boxes_around, is_known, lost, random_formula, real_value
 

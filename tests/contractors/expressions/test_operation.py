@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.expressions.expression import variables
 from ial.contractors.expressions.function import Function
 from ial.contractors.expressions.functions import OPERATIONS, add, atan2, exp, hypot, sin, sqrt
 from ial.contractors.expressions.operation import LANES, Operation
+from ial.contractors.expressions.variables import variables
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.intervals.sets import intersect
 from ial.contractors.kernels import kernel

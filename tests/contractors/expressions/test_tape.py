@@ -6,9 +6,10 @@ import pytest
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.expressions import functions
-from ial.contractors.expressions.expression import Expression, variables
+from ial.contractors.expressions.expression import Expression
 from ial.contractors.expressions.operation import LANES
 from ial.contractors.expressions.tape import Tape, ordered
+from ial.contractors.expressions.variables import variables
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.threads import set_threads
 from tests.contractors.formulas import assert_same, boxes_around, interval_value, is_known, lost, random_formula, real_value

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ial.contractors import Boxes, Interval
-from ial.contractors.expressions.expression import variables
+from ial.contractors.expressions.variables import variables
 from tests.contractors import itf1788
 
 FINITE = st.floats(allow_nan=False, allow_infinity=False)

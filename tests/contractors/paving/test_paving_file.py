@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.paving.paving_file import PavingError, read, write
-from ial.errors import OutputError
+from ial.contractors.paving.paving_file import read, write
+from ial.errors import OutputError, PavingError
 
 
 def example(rows: int = 50) -> tuple[Boxes, Boxes]:

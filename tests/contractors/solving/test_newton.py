@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.expressions.expression import variables
 from ial.contractors.expressions.function import Function
 from ial.contractors.expressions.functions import atan2, cos, exp, floor, log, sin, sqrt
+from ial.contractors.expressions.variables import variables
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.solving.newton import Newton
 from ial.contractors.solving.zeros import certify, zeros

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from ial.contractors.boxes import Boxes
 from ial.contractors.combinators.cylinder import where
 from ial.contractors.combinators.relaxation import relaxed
-from ial.contractors.expressions.expression import variables
 from ial.contractors.expressions.function import Function
 from ial.contractors.expressions.function_family import FunctionFamily
 from ial.contractors.expressions.functions import cos, floor, sin, sqrt
+from ial.contractors.expressions.variables import variables
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.paving.paver import Progress
 from ial.contractors.separator import Separator
