@@ -131,3 +131,11 @@ def test_no_path_of_a_machine() -> None:
                 f"{file.relative_to(ROOT)}: {line.strip()}" for line in content.decode(errors="replace").splitlines() if path.search(line)
             ]
     assert hits == []
+
+
+def test_the_reference_lists_every_public_name_of_the_toolkit() -> None:
+    import ial.contractors
+
+    page = (ROOT / "docs" / "api" / "contractors.md").read_text(encoding="utf-8")
+    listed = {line.rpartition(".")[2] for line in page.splitlines() if line.strip().startswith("~ial.contractors.")}
+    assert listed == set(ial.contractors.__all__)

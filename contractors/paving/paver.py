@@ -84,8 +84,7 @@ def pave(
 
         - ``"largest"``: the widest, measured in units of its precision.
         - ``"round_robin"``: the one that follows the side bisected last.
-        - a function of `Boxes` that gives weights of shape (n, d): the one with the largest weight. See
-        `ial.contractors.paving.smear.smear`.
+        - a function of `Boxes` that gives weights of shape (n, d), such as `smear`: the one with the largest weight.
     max_boxes
         Boxes are not bisected where that would make more than this many, finished and waiting together; they are returned as they are.
     max_seconds
