@@ -1,7 +1,6 @@
 """Operations on arrays of intervals beside crival, the vectorized library that the tests take their answers from."""
 
 import sys
-import time
 from collections.abc import Callable, Iterator
 from importlib.metadata import version
 from typing import Any
@@ -9,6 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from report import Report, options
+from timing import timed
 
 from ial.contractors import Operation, add, atan2, cos, exp, mul, set_threads, sin, sqr, sqrt
 from ial.contractors.threads import available_threads
@@ -38,30 +38,20 @@ def intervals(seed: int, least: float) -> Bounds:
     return np.maximum(middle - half, least), middle + half
 
 
-def per_element(function: Callable[..., Any], *operands: Any) -> tuple[float, Any]:
-    """Return the least time of five runs, in nanoseconds for one interval, and the result."""
-    times: list[float] = []
-    for _ in range(5):
-        begun = time.perf_counter()
-        result = function(*operands)
-        times.append(time.perf_counter() - begun)
-    return 1e9 * min(times) / COUNT, result
-
-
 def lines(threads: list[int]) -> Iterator[list[str]]:
     """Yield the cells of a line for each operation."""
     for operation, function in rows(ival):
         operands = [intervals(k, 0.0 if operation is sqrt else -np.inf) for k in range(operation.arity)]
         others = [ival.Interval(*pair) for pair in operands]
-        other, tight = per_element(function, *others)
+        other, tight = timed(function, *others)
         operation.bounds(*operands)  # loads its kernel
         times = []
         for count in threads:
             set_threads(count)
-            elapsed, (lower, upper) = per_element(operation.bounds, *operands)
+            elapsed, (lower, upper) = timed(operation.bounds, *operands)
             times.append(elapsed)
         unequal = np.count_nonzero((lower != tight.lo) | (upper != tight.hi))
-        yield [operation.name, f"{other:.1f}", *(f"{each:.1f}" for each in times), f"**{other / times[-1]:.1f}**", f"{unequal:,}"]
+        yield [operation.name, *(f"{1e9 * each / COUNT:.1f}" for each in (other, *times)), f"**{other / times[-1]:.1f}**", f"{unequal:,}"]
 
 
 def main() -> None:

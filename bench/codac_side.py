@@ -6,24 +6,12 @@ library are imported here.
 
 import json
 import sys
-import time
 from collections.abc import Callable
 from typing import Any
 
 import codac as cd
 from formulas import disc, distance, equations
-
-ENOUGH_S = 2.0  # what takes longer is run once
-
-
-def timed(work: Callable[[], Any]) -> tuple[float, Any]:
-    """Return the least time of up to five runs, in seconds, and the result."""
-    times: list[float] = []
-    while len(times) < 5 and sum(times) < ENOUGH_S:
-        begun = time.perf_counter()
-        result = work()
-        times.append(time.perf_counter() - begun)
-    return min(times), result
+from timing import timed
 
 
 def box(sides: list[list[float]]) -> Any:

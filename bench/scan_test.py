@@ -1,8 +1,7 @@
 """Nanoseconds for one test of a box and a beam, against a bare loop that reads the same numbers from the same table."""
 
 import os
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from unittest import mock
@@ -12,6 +11,7 @@ import numpy.typing as npt
 from lookups import Lookups
 from plans import CONFIG, scenes
 from report import Report, options
+from timing import timed
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.threads import available_threads, set_threads
@@ -71,16 +71,6 @@ def recorded(case: Case) -> tuple[ScanContractor, list[Boxes]]:
     return ScanContractor(listener.beams, listener.occupied, listener.map_error_m), batches
 
 
-def least_time(work: Callable[..., object], *arguments: object) -> float:
-    """Return the least time of several runs, seconds."""
-    times = []
-    for _ in range(REPETITIONS):
-        begun = time.perf_counter()
-        work(*arguments)
-        times.append(time.perf_counter() - begun)
-    return min(times)
-
-
 def measure(case: Case, threads: list[int]) -> Iterator[tuple[object, ...]]:
     """Yield one row of the table for each number of threads."""
     scan, batches = recorded(case)
@@ -93,8 +83,8 @@ def measure(case: Case, threads: list[int]) -> Iterator[tuple[object, ...]]:
         boxes, tests = boxes + len(batch), tests + lookups.tests
         for count in threads:
             set_threads(count)
-            floor[count] += least_time(lookups.replay)
-            kernel[count] += least_time(scan.fits, batch)
+            floor[count] += timed(lookups.replay, runs=REPETITIONS)[0]
+            kernel[count] += timed(scan.fits, batch, runs=REPETITIONS)[0]
     for count in threads:
         per_kernel, per_floor = 1e9 * kernel[count] / tests, 1e9 * floor[count] / tests
         counts = (f"{boxes:,}", f"{tests:,}", f"{tests / max(boxes, 1):.0f} of {len(scan.beams)}")

@@ -8,14 +8,14 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import time
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from report import Report, options  # ial is loaded in the processes of the cases: a child's peak memory is at least its parent's
+from timing import timed
 
 
 @dataclass(frozen=True)
@@ -60,16 +60,6 @@ def peak_mb() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1024.0**2 if sys.platform == "darwin" else 1024.0)
 
 
-def timed(work: Callable[[Any], Any], scan: Any) -> tuple[float, Any]:
-    """Return the least time of three runs, or that of one if it is slow, in seconds; and the result."""
-    times: list[float] = []
-    while len(times) < 3 and sum(times) < SLOW_S:
-        begun = time.perf_counter()
-        result = work(scan)
-        times.append(time.perf_counter() - begun)
-    return min(times), result
-
-
 def draw(case: Case, file: Path) -> None:
     """Simulate the scenes of a case into a file; this takes memory that the search does not."""
     from plans import scenes
@@ -90,9 +80,9 @@ def measure(scene: Any, config: Any, brute_force: bool) -> dict[str, Any]:
     row: dict[str, Any] = {"before_mb": peak_mb()}
     for name, threads in (("one", 1), ("all", None)):
         set_threads(threads)
-        row[f"{name}_s"], estimate = timed(localizer.locate, scene.scan)
+        row[f"{name}_s"], estimate = timed(localizer.locate, scene.scan, runs=3, enough_s=SLOW_S)
         if brute is not None:
-            row[f"brute_{name}_s"], match = timed(brute.locate, scene.scan)
+            row[f"brute_{name}_s"], match = timed(brute.locate, scene.scan, runs=3, enough_s=SLOW_S)
     row |= {"peak_mb": peak_mb(), "nodes": estimate.poses.nodes, "limited": estimate.limited}
     row |= {"hypotheses": len(estimate.hypotheses), "contained": estimate.poses.contains(scene.grid.pose_to_grid(scene.truth))}
     row["off_m"] = min(off(each.centre, scene.truth) for each in estimate.hypotheses)

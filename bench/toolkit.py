@@ -3,14 +3,14 @@
 import dataclasses
 import math
 import sys
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 from codac_process import VERSION, CodacMissingError, codac, install
 from formulas import SYSTEMS, System, disc, distance, equations
 from report import Report, options
+from timing import timed
 
 from ial.contractors import Boxes, Interval, Paving, Polar, Separator, mean_value, pave, relaxed, set_threads, variables
 from ial.contractors.expressions import functions
@@ -21,7 +21,6 @@ The same problems at the same precision, codac {VERSION} in a process of its own
 Python; ial on one thread and on all. Each time is the least of up to five runs, kernels compiled beforehand. *Nodes* are boxes contracted;
 *error* is the area or volume of the boxes that are neither proved inside nor outside (for a contractor alone: of all boxes, less that of
 the set where it is known). Where codac can use its centred form, both ways are measured; beside it stands `mean_value`."""
-ENOUGH_S = 2.0  # what takes longer is run once
 PRECISIONS = {"test": (0.1, 0.01, 0.001), "separator": (0.01, 1e-3, 1e-4, 1e-5), "contractor": (0.1, 0.01, 0.003)}
 FORMS = {"test": "sivia", "separator": "SepInverse", "contractor": "CtcInverse"}
 BEACONS, WRONG, RANGE_ERROR_M, FIELD_M = 15, 3, 0.5, 50.0
@@ -41,16 +40,6 @@ class Result:
     def speed(self) -> float:
         """Nodes per second."""
         return self.nodes / self.seconds
-
-
-def timed(work: Callable[[], Any]) -> tuple[float, Any]:
-    """Return the least time of up to five runs, in seconds, and the result."""
-    times: list[float] = []
-    while len(times) < 5 and sum(times) < ENOUGH_S:
-        begun = time.perf_counter()
-        result = work()
-        times.append(time.perf_counter() - begun)
-    return min(times), result
 
 
 def volume(boxes: Boxes) -> float:

@@ -12,7 +12,7 @@ Jacobian = Callable[[Boxes], tuple[FloatArray, FloatArray]]
 def smear(jacobian: Jacobian) -> Callable[[Boxes], FloatArray]:
     """Return a bisection rule for `ial.contractors.paving.paver.pave`: the side along which some function may vary most.
 
-    The weight of a side is the largest size of ∂f_j/∂x_i in the box times the width of the side, for the function f_j where that is largest.
+    The weight of a side is its width times the largest size of ∂f_j/∂x_i in the box, for the function f_j where that is largest.
 
     Parameters
     ----------
