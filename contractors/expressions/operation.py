@@ -89,13 +89,15 @@ def _apply(start, stop, address, operands, lower, upper):  # type: ignore[no-unt
     lanes = np.empty((8, LANES))
     at = lanes.ctypes.data
     for first in range(start, stop, LANES):
-        last = min(first + LANES, stop)
-        count = last - first
-        for k in range(len(operands)):
-            lanes[k, :count] = operands[k][first:last]
+        count = min(LANES, stop - first)
+        for k in range(len(operands)):  # element by element: an assignment of slices brings in the text of Numba's errors to compile
+            side, lane = operands[k], lanes[k]
+            for i in range(count):
+                lane[i] = side[first + i]
         call(address, count, at, at + 16 * LANES, at + 32 * LANES, at + 48 * LANES)
-        lower[first:last] = lanes[6, :count]
-        upper[first:last] = lanes[7, :count]
+        for i in range(count):
+            lower[first + i] = lanes[6, i]
+            upper[first + i] = lanes[7, i]
 
 
 class Operation:

@@ -293,7 +293,8 @@ def _narrow(start, stop, lower, upper, members, axes, constants, program, output
     empty = np.empty(LANES)  # 1.0 marks an empty row; a double, since loops over values of one size are vectorized
     variables = np.arange(len(axes))
     places = np.full(lower.shape[1], -1)
-    places[axes] = variables
+    for v in range(len(axes)):
+        places[axes[v]] = v
     for first in range(start, stop, LANES):
         count = min(LANES, stop - first)
         _load_variables(lanes, first, count, lower, upper, members, axes)

@@ -25,8 +25,8 @@ def _contract_rows(start, stop, x, y, near, far, lower, upper):  # type: ignore[
             low[:] = np.inf
             high[:] = -np.inf
         else:
-            low[:] = (xl, yl)
-            high[:] = (xu, yu)
+            low[0], low[1] = xl, yl
+            high[0], high[1] = xu, yu
 
 
 class Annulus(Contractor):

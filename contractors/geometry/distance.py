@@ -37,8 +37,8 @@ def _contract_rows(start, stop, lower, upper):  # type: ignore[no-untyped-def]
             low[:] = np.inf
             high[:] = -np.inf
         else:
-            low[:] = (pl, ql, vl, wl, dl)
-            high[:] = (pu, qu, vu, wu, du)
+            low[0], low[1], low[2], low[3], low[4] = pl, ql, vl, wl, dl
+            high[0], high[1], high[2], high[3], high[4] = pu, qu, vu, wu, du
 
 
 class Distance(Contractor):

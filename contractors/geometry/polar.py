@@ -119,8 +119,8 @@ def _contract_rows(start, stop, lower, upper):  # type: ignore[no-untyped-def]
     for i in range(start, stop):
         low, high = lower[i], upper[i]
         xl, xu, yl, yu, rl, ru, tl, tu = contract_polar(low[0], high[0], low[1], high[1], low[2], high[2], low[3], high[3])
-        low[:] = (xl, yl, rl, tl)
-        high[:] = (xu, yu, ru, tu)
+        low[0], low[1], low[2], low[3] = xl, yl, rl, tl
+        high[0], high[1], high[2], high[3] = xu, yu, ru, tu
 
 
 class Polar(Contractor):

@@ -27,8 +27,8 @@ def _contract_rows(start, stop, lower, upper):  # type: ignore[no-untyped-def]
             low[:] = np.inf
             high[:] = -np.inf
         else:
-            low[:] = (xl, yl, tl, rl, bl, vl, wl)
-            high[:] = (xu, yu, tu, ru, bu, vu, wu)
+            low[0], low[1], low[2], low[3], low[4], low[5], low[6] = xl, yl, tl, rl, bl, vl, wl
+            high[0], high[1], high[2], high[3], high[4], high[5], high[6] = xu, yu, tu, ru, bu, vu, wu
 
 
 class RangeBearing(Contractor):

@@ -91,10 +91,17 @@ class Newton(Combinator):
 
 
 @kernel
+def _write_identity(matrix):  # type: ignore[no-untyped-def]
+    for i in range(len(matrix)):
+        for j in range(len(matrix)):
+            matrix[i, j] = 1.0 if i == j else 0.0
+
+
+@kernel
 def _invert(matrix, inverse):  # type: ignore[no-untyped-def]
     """Write about the inverse of a square matrix, by elimination with row pivots, or the identity. The matrix is overwritten."""
     n = len(matrix)
-    inverse[:] = np.eye(n)
+    _write_identity(inverse)
     regular = True
     for k in range(n):
         pivot = k
@@ -117,7 +124,7 @@ def _invert(matrix, inverse):  # type: ignore[no-untyped-def]
         for j in range(n):
             regular &= abs(inverse[i, j]) < np.inf
     if not regular:
-        inverse[:] = np.eye(n)
+        _write_identity(inverse)
 
 
 @kernel
