@@ -62,7 +62,7 @@ class Boxes(Elementwise):
         """
         from ial.contractors.intervals.interval import Interval
 
-        if len({len(row) for row in rows}) != 1:
+        if len({len(row) for row in rows}) != 1 or not rows[0]:
             raise ValueError("boxes need one row or more of the same number of sides; no boxes at all are Boxes.none(dimension)")
         empty = Interval.empty()
         pairs = [

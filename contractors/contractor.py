@@ -7,6 +7,7 @@ from typing import Protocol
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.rounding import check_rounding
+from ial.contractors.space import Space
 
 
 class Dimensioned(Protocol):
@@ -41,6 +42,8 @@ class Contractor(ABC):
     """
 
     dimension: int
+    space: Space | None = None
+    """The variables that the constraint was written with; those of different spaces do not combine. None where axes have no names."""
 
     @abstractmethod
     def contract(self, boxes: Boxes) -> Boxes:
@@ -126,9 +129,15 @@ def require_dimension(contractor: Dimensioned, boxes: Boxes) -> None:
 
     Raises
     ------
+    TypeError
+        If something is no contractor, or no boxes.
     ValueError
-        If they do not.
+        If the dimensions differ.
     """
+    if not hasattr(contractor, "dimension"):
+        raise TypeError(f"{contractor!r} is no constraint; give a contractor or a separator")
+    if not isinstance(boxes, Boxes):
+        raise TypeError(f"{boxes!r} are no boxes; write Boxes.of([(lower, upper), …])")
     if boxes.dimension != contractor.dimension:
         raise ValueError(f"the boxes have {boxes.dimension} dimensions; {type(contractor).__name__} needs {contractor.dimension}")
 

@@ -6,6 +6,7 @@ from typing import TypeGuard
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.contractor import ContractorLike, common_dimension, complement
+from ial.contractors.space import common_space
 
 
 class Separator:
@@ -35,6 +36,7 @@ class Separator:
 
     def __init__(self, inner: ContractorLike, outer: ContractorLike) -> None:
         self.dimension = common_dimension((inner, outer))
+        self.space = common_space((inner, outer))
         self.inner = inner
         self.outer = outer
 

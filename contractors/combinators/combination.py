@@ -11,6 +11,7 @@ from ial.contractors.combinators.relaxation import Relaxed
 from ial.contractors.combinators.rows import PAYS, emptied, occupied, outside, spread, widen
 from ial.contractors.contractor import Combinator, Contractor, ContractorLike, common_dimension, complement
 from ial.contractors.separator import Separator, are_separators
+from ial.contractors.space import common_space
 
 
 class Intersection(Combinator):
@@ -33,6 +34,7 @@ class Intersection(Combinator):
     def __init__(self, *contractors: Member) -> None:
         members = members_of(contractors)
         self.dimension = common_dimension(members)
+        self.space = common_space(members)
         flat: list[ContractorLike] = []
         for member in members:
             if isinstance(member, Family):
@@ -40,6 +42,9 @@ class Intersection(Combinator):
             else:
                 flat.extend(member.contractors if type(member) is Intersection else [member])
         self.contractors: tuple[ContractorLike, ...] = tuple(flat)
+
+    def __repr__(self) -> str:
+        return " & ".join(f"({contractor!r})" for contractor in self.contractors)
 
     def complement(self) -> Contractor:
         """Return the points at which at least one constraint fails.
@@ -92,6 +97,7 @@ class Union(Combinator):
     def __init__(self, *contractors: Member) -> None:
         members = members_of(contractors)
         self.dimension = common_dimension(members)
+        self.space = common_space(members)
         flat: list[ContractorLike] = []
         for member in members:
             if isinstance(member, Family):
@@ -99,6 +105,9 @@ class Union(Combinator):
             else:
                 flat.extend(member.contractors if type(member) is Union else [member])
         self.contractors: tuple[ContractorLike, ...] = tuple(flat)
+
+    def __repr__(self) -> str:
+        return " | ".join(f"({contractor!r})" for contractor in self.contractors)
 
     def complement(self) -> Contractor:
         """Return the points at which every constraint fails.

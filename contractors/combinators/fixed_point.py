@@ -7,6 +7,7 @@ from ial.contractors.combinators.rows import occupied
 from ial.contractors.contractor import Combinator, Contractor, ContractorLike, complement
 from ial.contractors.kernels import kernel
 from ial.contractors.separator import Separator
+from ial.contractors.space import common_space
 
 
 @kernel
@@ -53,6 +54,7 @@ class FixedPoint(Combinator):
         if max_rounds < 1:
             raise ValueError(f"the number of rounds is {max_rounds}; give at least 1")
         self.dimension = contractor.dimension
+        self.space = common_space([contractor])
         self.contractor = contractor
         self.ratio = ratio
         self.max_rounds = max_rounds

@@ -14,6 +14,7 @@ from ial.contractors.combinators.trivial_sets import EmptySet
 from ial.contractors.contractor import Combinator, Contractor, common_dimension, complement
 from ial.contractors.kernels import kernel
 from ial.contractors.separator import Separator, are_separators
+from ial.contractors.space import common_space
 from ial.contractors.threads import run
 
 _NUMBERS = 1 << 22  # how many bounds of parts are held at once: 32 MB for each of lower and upper
@@ -172,11 +173,15 @@ class Relaxed(Combinator):
     def __init__(self, *contractors: Member, outliers: int, exact: bool = False) -> None:
         self.contractors = members_of(contractors)
         self.dimension = common_dimension(self.contractors)
+        self.space = common_space(self.contractors)
         self.count = sum(count_of(member) for member in self.contractors)
         self.outliers = _checked(outliers)
         self.exact = exact
         if exact and _differs(self.count, self.dimension, outliers):
             require_affordable(self.count, self.dimension)
+
+    def __repr__(self) -> str:
+        return f"relaxed([{', '.join(map(repr, self.contractors))}], outliers={self.outliers})"
 
     def complement(self) -> Contractor:
         """Return the points at which more than `outliers` of the constraints fail.

@@ -10,9 +10,9 @@ from ial.contractors.boxes import Boxes, FloatArray
 from ial.contractors.contractor import Contractor, require_dimension
 from ial.contractors.expressions.derivative import conditions, met
 from ial.contractors.expressions.operation import Bounds
-from ial.contractors.expressions.space import Space
 from ial.contractors.expressions.tape import Node, Tape
 from ial.contractors.rounding import check_rounding
+from ial.contractors.space import Space
 
 Relation = tuple[Node, Bounds]
 """An expression and the bounds it must lie in, two arrays of one value, or of one for each row of the constants."""
@@ -40,7 +40,7 @@ class Constraint(Contractor):
     """
 
     def __init__(self, space: Space, relations: Sequence[Relation], text: str) -> None:
-        self.space = space
+        self.space: Space = space
         self.dimension = space.dimension
         self.relations = tuple(relations)
         self.text = text
@@ -157,6 +157,7 @@ class Complement(Contractor):
 
     def __init__(self, constraint: Constraint) -> None:
         self.dimension = constraint.dimension
+        self.space: Space = constraint.space
         self.constraint = constraint
         expressions = [expression for expression, _ in constraint.relations]
         self._guards, self._intervals = conditions(expressions, "defined")

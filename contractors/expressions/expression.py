@@ -12,9 +12,9 @@ from ial.contractors.boxes import Boxes
 from ial.contractors.expressions import functions
 from ial.contractors.expressions.constraint import Constraint, ConstraintFamily
 from ial.contractors.expressions.operation import Bounds, Operation
-from ial.contractors.expressions.space import Space
 from ial.contractors.expressions.tape import ordered
 from ial.contractors.intervals.interval import Interval
+from ial.contractors.space import Space, common_space
 
 _LONGEST = 400  # a longer part of a formula is not written out
 _SIGNS = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
@@ -111,7 +111,7 @@ class Expression:
             raise ValueError(
                 f"{operation.name} combines constants of {' and '.join(map(str, sorted(counts)))} rows; they must have as many"
             )
-        return Expression(_common_space(nodes), operation=operation, operands=nodes)
+        return Expression(common_space(nodes), operation=operation, operands=nodes)
 
     def __add__(self, other: Any) -> Any:
         return _binary(functions.add, self, other)
@@ -216,14 +216,6 @@ def _binary(operation: Operation, a: Any, b: Any) -> Any:
     if not (_is_operand(a) and _is_operand(b)):
         return NotImplemented
     return operation(a, b)
-
-
-def _common_space(nodes: Sequence[Expression]) -> Space | None:
-    spaces = {node.space for node in nodes if node.space is not None}
-    if len(spaces) > 1:
-        names = " and ".join(sorted(" ".join(space.names) for space in spaces))
-        raise ValueError(f"the variables {names} were declared apart; declare all variables of a problem in one variables(...) call")
-    return spaces.pop() if spaces else None
 
 
 def _simplified(operation: Operation, nodes: tuple[Expression, ...]) -> Expression | None:

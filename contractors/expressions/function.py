@@ -14,6 +14,7 @@ from ial.contractors.expressions.tape import Tape
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.rounding import check_rounding
 from ial.contractors.separator import Separator
+from ial.contractors.space import required_space
 
 
 class Function:
@@ -38,12 +39,7 @@ class Function:
     """
 
     def __init__(self, *expressions: Expression | Interval | float) -> None:
-        spaces = {expression.space for expression in expressions if isinstance(expression, Expression) and expression.space is not None}
-        if len(spaces) != 1:
-            raise ValueError(
-                f"a function is given formulas over {len(spaces)} spaces; give formulas over the variables of one variables(...) call"
-            )
-        self.space = spaces.pop()
+        self.space = required_space(expressions)
         self.expressions = tuple(Expression.of(expression) for expression in expressions)
         self.dimension: int = self.space.dimension
         self.tape = Tape(self.dimension, self.expressions)
@@ -145,6 +141,7 @@ class Inverse(Combinator):
                 f"the function has {function.values} values; {type(contractor).__name__} has {contractor.dimension} dimensions"
             )
         self.dimension = function.dimension
+        self.space = function.space
         self.function = function
         self.contractor = contractor
 

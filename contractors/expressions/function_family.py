@@ -9,6 +9,7 @@ from ial.contractors.expressions.expression import Expression
 from ial.contractors.expressions.tape import Tape
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.rounding import check_rounding
+from ial.contractors.space import required_space
 
 
 class FunctionFamily:
@@ -39,12 +40,7 @@ class FunctionFamily:
     """
 
     def __init__(self, *expressions: Expression | Interval | float) -> None:
-        spaces = {expression.space for expression in expressions if isinstance(expression, Expression) and expression.space is not None}
-        if len(spaces) != 1:
-            raise ValueError(
-                f"a function is given formulas over {len(spaces)} spaces; give formulas over the variables of one variables(...) call"
-            )
-        self.space = spaces.pop()
+        self.space = required_space(expressions)
         self.expressions = tuple(Expression.of(expression) for expression in expressions)
         counts = {expression.count for expression in self.expressions if expression.count > 1}
         if len(counts) > 1:
@@ -97,6 +93,7 @@ class InverseFamily(Combinator):
                 f"the functions have {function.values} values; {type(contractor).__name__} has {contractor.dimension} dimensions"
             )
         self.dimension = function.dimension
+        self.space = function.space
         self.function = function
         self.contractor = contractor
 

@@ -30,6 +30,7 @@ class MeanValue(Combinator):
 
     def __init__(self, constraint: Constraint) -> None:
         self.dimension = constraint.dimension
+        self.space = constraint.space
         self.constraint = constraint
         self.function = Function(*(expression for expression, _ in constraint.relations))  # type: ignore[arg-type]
         self.function.jacobian(Boxes.none(self.dimension))

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ial.contractors.expressions.expression import Expression
-from ial.contractors.expressions.space import Space
+from ial.contractors.space import Space
 
 _NAME = re.compile(r"([^\W\d]\w*)(?:\[(\d+)\])?")
 

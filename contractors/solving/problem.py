@@ -12,12 +12,12 @@ from ial.contractors.contractor import Combinator
 from ial.contractors.expressions.constraint import Constraint, ConstraintFamily
 from ial.contractors.expressions.expression import Expression
 from ial.contractors.expressions.mean_value import mean_value
-from ial.contractors.expressions.space import Space
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.paving.paver import pave
 from ial.contractors.paving.paving import Paving
 from ial.contractors.solving.conflict import conflict
 from ial.contractors.solving.propagation import Propagation
+from ial.contractors.space import Space
 
 Domains = Mapping[Any, Any] | Sequence[Any] | Boxes
 
@@ -66,7 +66,7 @@ class Problem(Combinator):
     """
 
     def __init__(self, variables: Any, domains: Domains | None = None, constraints: Iterable[Member] = ()) -> None:
-        self.space = _space(variables)
+        self.space: Space = _space(variables)
         self.dimension = self.space.dimension
         self.box = _box(domains, self.space)
         self.constraints = members_of(constraints)
@@ -226,7 +226,7 @@ def _axis(variable: Any, space: Space) -> int:
 
 
 def _require_space(constraint: Member, space: Space) -> None:
-    if isinstance(constraint, Constraint) and constraint.space is not space:
+    if getattr(constraint, "space", None) not in (None, space):
         raise ValueError(
             f"the constraint {constraint} is over other variables; declare all variables of a problem in one variables(...) call"
         )

@@ -93,9 +93,9 @@ def test_preimages_with_constant_formulas() -> None:
 @pytest.mark.parametrize(
     ("call", "error", "message"),
     [
-        (lambda: Function(1.0, 2.0), ValueError, "formulas over 0 spaces"),
-        (lambda: Function(), ValueError, "formulas over 0 spaces"),
-        (lambda: Function(x, u), ValueError, "formulas over 2 spaces"),
+        (lambda: Function(1.0, 2.0), ValueError, "no variable in the formulas"),
+        (lambda: Function(), ValueError, "no variable in the formulas"),
+        (lambda: Function(x, u), ValueError, "declared apart"),
         (lambda: Function(x + np.ones(3)), ValueError, "differ from row to row"),
         (
             lambda: Function(x + floor(y)).jacobian(Boxes.of([(0, 1), (0, 1)])),

@@ -13,6 +13,7 @@ from ial.contractors.expressions.function import Function
 from ial.contractors.expressions.function_family import FunctionFamily
 from ial.contractors.expressions.functions import cos, floor, sin, sqrt
 from ial.contractors.expressions.variables import variables
+from ial.contractors.geometry.polar import Polar
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.paving.paver import Progress
 from ial.contractors.separator import Separator
@@ -63,7 +64,7 @@ def test_what_does_not_fit_is_refused() -> None:
     with pytest.raises(ValueError, match="over other variables"):
         Problem((x, y), constraints=[u + v == 1])
     with pytest.raises(ValueError, match="where"):
-        Problem((x, y), constraints=[Function(u := variables("u")).preimage(u == 1)])
+        Problem((x, y), constraints=[Polar()])
     with pytest.raises(TypeError, match="not a contractor"):
         Problem((x, y), constraints=[Separator.of(x == 1)])
     with pytest.raises(ValueError, match="the ratio is 1"):
