@@ -1,10 +1,12 @@
 """`Space`: the variables that a formula may use."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
+from dataclasses import dataclass
 
 
+@dataclass(frozen=True)
 class Space:
-    """The variables that were declared together; a box has one side for each, in this order.
+    """The variables that were declared together; a box has one side for each, in this order. Spaces of the same names are the same.
 
     Parameters
     ----------
@@ -12,16 +14,12 @@ class Space:
         The names of the variables.
     """
 
-    def __init__(self, names: Sequence[str]) -> None:
-        self.names = tuple(names)
+    names: tuple[str, ...]
 
     @property
     def dimension(self) -> int:
         """The number of variables."""
         return len(self.names)
-
-    def __repr__(self) -> str:
-        return f"Space({' '.join(self.names)})"
 
 
 def common_space(holders: Iterable[object]) -> Space | None:

@@ -73,7 +73,7 @@ class Constraint(Contractor):
         return Complement(self)
 
     def __and__(self, other: Any) -> Any:
-        if type(other) is Constraint and type(self) is Constraint and other.space is self.space:
+        if type(other) is Constraint and type(self) is Constraint and other.space == self.space:
             return Constraint(self.space, [*self.relations, *other.relations], f"({self}) & ({other})")
         return super().__and__(other)
 

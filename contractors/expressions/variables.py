@@ -42,7 +42,7 @@ def variables(names: str) -> Any:
     found = [(word[1], word[2]) for word in words if word]
     if len({name for name, _ in found}) < len(found):
         raise ValueError(f"{names!r} declares a name twice")
-    space = Space([part for name, size in found for part in ([f"{name}[{i}]" for i in range(int(size))] if size else [name])])
+    space = Space(tuple(part for name, size in found for part in ([f"{name}[{i}]" for i in range(int(size))] if size else [name])))
     axes = iter(range(space.dimension))
     declared: list[Any] = []
     for _, size in found:

@@ -218,7 +218,7 @@ def _interval(domain: Any) -> Interval:
 
 
 def _axis(variable: Any, space: Space) -> int:
-    if isinstance(variable, Expression) and variable.space is space and variable.axis is not None:
+    if isinstance(variable, Expression) and variable.space == space and variable.axis is not None:
         return variable.axis
     if isinstance(variable, str) and variable in space.names:
         return space.names.index(variable)

@@ -37,3 +37,10 @@ def test_what_is_no_constraint_or_no_boxes_is_said() -> None:
 def test_combinations_are_printed_as_they_are_written() -> None:
     assert repr((x <= 1) | (y == 2)) == "(x <= [1.0, 1.0]) | (y == [2.0, 2.0])"
     assert repr(relaxed([x <= 1, y <= 2], outliers=1)) == "relaxed([x <= [1.0, 1.0], y <= [2.0, 2.0]], outliers=1)"
+
+
+def test_the_same_names_in_the_same_order_are_the_same_space() -> None:
+    again, _ = variables("x y")
+    assert (ONE & (again <= 0)).contract(Boxes.of([(-2, 2), (-2, 2)])).upper[0, 0] == 0.0
+    with pytest.raises(ValueError, match="x y and y x were declared apart"):
+        intersection([ONE, variables("y x")[0] == 1])

@@ -191,7 +191,7 @@ def test_names_that_declare_nothing(names: Any) -> None:
 def test_names() -> None:
     assert repr(variables("θ x_1")) == "(θ, x_1)"
     assert variables("p[1]").shape == (1,)
-    assert repr(variables("x p[2]")[0].space) == "Space(x p[0] p[1])"
+    assert variables("x p[2]")[0].space.names == ("x", "p[0]", "p[1]")
 
 
 @pytest.mark.parametrize(
