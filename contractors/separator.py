@@ -2,9 +2,10 @@
 
 from collections.abc import Sequence
 from importlib import import_module
-from typing import TypeGuard
+from typing import Any, TypeGuard, cast
 
 from ial.contractors.boxes import Boxes
+from ial.contractors.combinators.family import Family
 from ial.contractors.contractor import ContractorLike, common_dimension, complement
 from ial.contractors.space import common_space
 
@@ -21,7 +22,8 @@ class Separator:
     Parameters
     ----------
     inner, outer
-        Contractors of one dimension: `outer` for the set, `inner` for its complement.
+        Contractors of one dimension: `outer` for the set, `inner` for its complement. A family counts as one contractor here, for the
+        intersection of its constraints: a separator is one set wherever it is combined.
 
     Raises
     ------
@@ -37,8 +39,8 @@ class Separator:
     def __init__(self, inner: ContractorLike, outer: ContractorLike) -> None:
         self.dimension = common_dimension((inner, outer))
         self.space = common_space((inner, outer))
-        self.inner = inner
-        self.outer = outer
+        self.inner = _one(inner)
+        self.outer = _one(outer)
 
     @classmethod
     def of(cls, contractor: ContractorLike) -> "Separator":
@@ -59,19 +61,23 @@ class Separator:
         return self.inner.contract(boxes), self.outer.contract(boxes)
 
     def __and__(self, other: "Separator") -> "Separator":
-        return _combined("intersection", [self, other])
+        return cast(Separator, _combined("intersection", [self, other]))
 
     def __or__(self, other: "Separator") -> "Separator":
-        return _combined("union", [self, other])
+        return cast(Separator, _combined("union", [self, other]))
 
     def __invert__(self) -> "Separator":
         return Separator(inner=self.outer, outer=self.inner)
 
 
-def _combined(name: str, members: list[Separator]) -> Separator:
+def _one(contractor: ContractorLike) -> ContractorLike:
+    """Return a contractor that counts as one: relaxation by q would otherwise mean another number of sets outside than inside."""
+    return cast(ContractorLike, _combined("intersection", [contractor])) if isinstance(contractor, Family) else contractor
+
+
+def _combined(name: str, members: list[Any]) -> Any:
     """Call a function of the room that is built on this one; it is found when an operator is used."""
-    found: Separator = getattr(import_module("ial.contractors.combinators.combination"), name)(members)
-    return found
+    return getattr(import_module("ial.contractors.combinators.combination"), name)(members)
 
 
 def are_separators(members: Sequence[object]) -> TypeGuard[Sequence[Separator]]:

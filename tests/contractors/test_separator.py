@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ial.contractors import Boxes, Separator, fixpoint, intersection, lazy, negation, relaxed, union
+from ial.contractors import Boxes, Separator, fixpoint, intersection, lazy, minimal_outliers, negation, pave, relaxed, union, variables
 from tests.contractors.shapes import Inside, Mask, Outside, inside, is_well_formed, lattice, random_boxes, same, separator
 
 POINTS = lattice(2)
@@ -125,6 +125,20 @@ def test_a_contractor_that_knows_its_complement_gives_a_separator() -> None:
     assert equal(Separator.of(Known(*bounds)), A)
     with pytest.raises(TypeError, match="outside of Inside"):
         Separator.of(Inside(*bounds))
+
+
+def test_a_separator_of_a_family_is_one_set_on_both_sides() -> None:
+    """Three strips that do not meet: no point satisfies the family, and the other set alone can be relaxed away from, or to."""
+    x, y = variables("x y")
+    strips = Separator.of(np.ones(3) * x == Boxes.of([(0, 1)], [(2, 3)], [(4, 5)]))
+    half = Separator.of(y >= 0)
+    room = Boxes.of([(-8, 8), (-8, 8)])
+    for none in (strips, strips & half, lazy([strips, half])):
+        assert pave(none, room, 0.5).volume().upper == 0.0
+    for either in (strips | half, relaxed([strips, half], 1)):
+        assert pave(either, room, 0.5).volume() == pave(half, room, 0.5).volume()
+    found = minimal_outliers([strips, half], room, 0.5)
+    assert (found.q_low, found.q_high) == (1, 1)
 
 
 def test_bad_input_is_refused() -> None:
