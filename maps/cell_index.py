@@ -20,6 +20,10 @@ from ial.maps.occupancy_grid import check_resolution, check_size
 SLACK = 2.0**-32
 
 
+BORDER = 64
+"""Columns on either side of a table that repeat its edge: rectangles up to this far outside are looked up without a test."""
+
+
 @kernel
 def count(table, row0, row1, column0, column1):  # type: ignore[no-untyped-def]
     """Return how many cells of the set lie in rows row0 … row1 − 1 and columns column0 … column1 − 1."""
@@ -136,6 +140,8 @@ class CellIndex:
     ----------
     table
         int32 of shape (rows + 1, columns + 1): ``table[i, j]`` cells of the set lie in rows below i and columns below j.
+    bordered
+        The same table with `BORDER` more columns on either side, contiguous; `table` is a view of it.
     resolution, inverse_resolution
         The width of a cell, and 1 / resolution rounded to nearest.
 
@@ -152,7 +158,12 @@ class CellIndex:
             raise MapError(f"the mask is an array of {mask.dtype} with shape {mask.shape}; give bool with shape (rows, columns)")
         check_size(*mask.shape)
         check_resolution(resolution)
-        self.table: npt.NDArray[np.int32] = np.asarray(cv2.integral(np.ascontiguousarray(mask).view(np.uint8)), dtype=np.int32)
+        rows, columns = mask.shape
+        # Counted in place: for a large map a copy of the table would cost more memory than all else.
+        self.bordered: npt.NDArray[np.int32] = np.empty((rows + 1, columns + 1 + 2 * BORDER), dtype=np.int32)
+        framed = cv2.copyMakeBorder(np.ascontiguousarray(mask).view(np.uint8), 0, 0, BORDER, BORDER, cv2.BORDER_CONSTANT, value=0)
+        cv2.integral(framed, self.bordered)
+        self.table = self.bordered[:, BORDER : BORDER + columns + 1]
         self.resolution = float(resolution)
         self.inverse_resolution = 1.0 / self.resolution
 

@@ -1,19 +1,16 @@
 """`Lattice`: space and heading divided into equal cells, so that overlapping boxes can be replaced by cells that do not overlap."""
 
+import functools
 import math
 
 import numpy as np
-import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes, FloatArray
 from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.contractors.kernels import kernel
+from ial.lidar.tiles import IntArray, Tiles, filled_tiles, tiles_met
 
-_TILE_ROWS = 16
-_TILE_COLUMNS = 64  # a row of a tile is one 64-bit word
 _LARGEST_WORK = 1 << 22  # pairs of a box and a tile; beyond, a coarser lattice is taken
-
-IntArray = npt.NDArray[np.int64]
 
 
 class Lattice:
@@ -22,13 +19,18 @@ class Lattice:
     Parameters
     ----------
     position_m
-        Width of a cell of the finest level along x and y; rounded up to 24 bits, so that cells and their halves have exact bounds.
+        Width of a cell of the finest level along x and y; rounded up to 24 bits for each of its parts, so that cells, their halves and
+        their parts have exact bounds.
     heading_rad
         The circle is divided into the smallest power of two of equal parts that are at most this wide.
+    parts
+        Into how many parts a cell is divided along x and along y where it is tried piece by piece.
     """
 
-    def __init__(self, position_m: float, heading_rad: float) -> None:
-        self.position_m = _rounded_up(position_m)
+    def __init__(self, position_m: float, heading_rad: float, parts: int = 2) -> None:
+        self.parts = parts
+        self.part_m = _rounded_up(position_m / parts)
+        self.position_m = parts * self.part_m
         self.layers = 1 << max(1, math.ceil(math.log2(2.0 * math.pi / heading_rad)))
 
     @property
@@ -49,20 +51,23 @@ class Lattice:
         if not len(boxes):
             return boxes
         for level in range(64):
-            step, layers = self.position_m * 2.0**level, max(1, self.layers >> level)
-            edges = _edges(layers)
-            ranges = np.empty((len(boxes), 6), dtype=np.int64)
-            _cell_ranges(boxes.lower, boxes.upper, step, edges, ranges)
-            largest = (ranges[:, 1::2] - ranges[:, ::2] + 1).prod(axis=1).max()
-            if level < 63 and (largest > max(max_cells, 8) or _tiles_met(ranges, layers) > _LARGEST_WORK):
-                continue
-            keys, words = _filled_tiles(ranges, layers)
-            cells = int(np.bitwise_count(words).sum())
-            if cells <= max_cells:
-                break
-        lower, upper = np.empty((cells, 3)), np.empty((cells, 3))
-        _cells_of(keys, words, edges, step, lower, upper)
-        return Boxes(lower, upper)
+            step, edges = self.position_m * 2.0**level, layer_edges(max(1, self.layers >> level))
+            tiles = _few_tiles(boxes, step, edges, max_cells)
+            if tiles is not None:
+                return tiles.boxes(step, edges)
+        return filled_tiles(_ranges(boxes, step, edges), len(edges) - 1).boxes(step, edges)
+
+    def tiles(self, boxes: Boxes) -> Tiles:
+        """Return the cells of the finest level that together cover all boxes."""
+        return filled_tiles(_ranges(boxes, self.position_m, layer_edges(self.layers)), self.layers)
+
+    def few_tiles(self, boxes: Boxes, max_cells: int) -> Tiles | None:
+        """Return the same where they are at most `max_cells`, else None."""
+        return _few_tiles(boxes, self.position_m, layer_edges(self.layers), max_cells)
+
+    def boxes(self, tiles: Tiles) -> Boxes:
+        """Return cells of the finest level as boxes."""
+        return tiles.boxes(self.position_m, layer_edges(self.layers))
 
 
 def _rounded_up(width: float) -> float:
@@ -74,7 +79,8 @@ def _rounded_up(width: float) -> float:
     return math.ldexp(math.ceil(math.ldexp(mantissa, 24)), exponent - 24)
 
 
-def _edges(layers: int) -> FloatArray:
+@functools.lru_cache(maxsize=64)
+def layer_edges(layers: int) -> FloatArray:
     """Return the boundaries of the headings' cells, those that `Boxes.bisect` makes of the circle, bit for bit."""
     edges = np.array([-PI_UPPER, PI_UPPER])
     while len(edges) <= layers:
@@ -82,6 +88,7 @@ def _edges(layers: int) -> FloatArray:
         finer[::2] = edges
         finer[1::2] = edges[:-1] + 0.5 * (edges[1:] - edges[:-1])
         edges = finer
+    edges.setflags(write=False)
     return edges
 
 
@@ -121,74 +128,18 @@ def _cell_ranges(lower, upper, step, edges, ranges):  # type: ignore[no-untyped-
         ranges[row, 5] = min(last, first + layers - 1)
 
 
-@kernel
-def _tiles_met(ranges, layers):  # type: ignore[no-untyped-def]
-    total = 0
-    for row in range(len(ranges)):
-        across = ranges[row, 1] // _TILE_COLUMNS - ranges[row, 0] // _TILE_COLUMNS + 1
-        along = ranges[row, 3] // _TILE_ROWS - ranges[row, 2] // _TILE_ROWS + 1
-        total += across * along * (ranges[row, 5] - ranges[row, 4] + 1)
-    return total
+def _ranges(boxes: Boxes, step: float, edges: FloatArray) -> IntArray:
+    """Return the first and the last cell of each box along x, y and θ, int64 of shape (n, 6)."""
+    ranges = np.empty((len(boxes), 6), dtype=np.int64)
+    _cell_ranges(boxes.lower, boxes.upper, step, edges, ranges)
+    return ranges
 
 
-@kernel
-def _list_tiles(ranges, layers, keys, rows):  # type: ignore[no-untyped-def]
-    at = 0
-    for row in range(len(ranges)):
-        for turn in range(ranges[row, 4], ranges[row, 5] + 1):
-            layer = turn % layers
-            for tile_y in range(ranges[row, 2] // _TILE_ROWS, ranges[row, 3] // _TILE_ROWS + 1):
-                for tile_x in range(ranges[row, 0] // _TILE_COLUMNS, ranges[row, 1] // _TILE_COLUMNS + 1):
-                    keys[at, 0] = layer
-                    keys[at, 1] = tile_y
-                    keys[at, 2] = tile_x
-                    rows[at] = row
-                    at += 1
-
-
-@kernel
-def _fill(ranges, keys, rows, groups, words):  # type: ignore[no-untyped-def]
-    for at in range(len(keys)):
-        row = rows[at]
-        below = keys[at, 1] * _TILE_ROWS
-        left = keys[at, 2] * _TILE_COLUMNS
-        first = max(ranges[row, 0] - left, 0)
-        last = min(ranges[row, 1] - left, _TILE_COLUMNS - 1)
-        bits = (~np.uint64(0) >> np.uint64(_TILE_COLUMNS - 1 - (last - first))) << np.uint64(first)
-        for y in range(max(ranges[row, 2] - below, 0), min(ranges[row, 3] - below, _TILE_ROWS - 1) + 1):
-            words[groups[at], y] |= bits
-
-
-def _filled_tiles(ranges: IntArray, layers: int) -> tuple[IntArray, npt.NDArray[np.uint64]]:
-    """Return the tiles that boxes meet, sorted, as rows (layer, tile row, tile column), and the cells met in each as bits."""
-    pairs = _tiles_met(ranges, layers)
-    listed, rows = np.empty((pairs, 3), dtype=np.int64), np.empty(pairs, dtype=np.int64)
-    _list_tiles(ranges, layers, listed, rows)
-    low = listed.min(axis=0)
-    size = listed.max(axis=0) - low + 1
-    flat = ((listed[:, 0] - low[0]) * size[1] + (listed[:, 1] - low[1])) * size[2] + (listed[:, 2] - low[2])
-    _, firsts, groups = np.unique(flat, return_index=True, return_inverse=True)
-    words = np.zeros((len(firsts), _TILE_ROWS), dtype=np.uint64)
-    _fill(ranges, listed, rows, groups, words)
-    return listed[firsts], words
-
-
-@kernel
-def _cells_of(keys, words, edges, step, lower, upper):  # type: ignore[no-untyped-def]
-    at = 0
-    for tile in range(len(keys)):
-        for y in range(_TILE_ROWS):
-            word = words[tile, y]
-            if word == np.uint64(0):
-                continue
-            row = keys[tile, 1] * _TILE_ROWS + y
-            for x in range(_TILE_COLUMNS):
-                if (word >> np.uint64(x)) & np.uint64(1):
-                    column = keys[tile, 2] * _TILE_COLUMNS + x
-                    lower[at, 0] = column * step
-                    upper[at, 0] = (column + 1) * step
-                    lower[at, 1] = row * step
-                    upper[at, 1] = (row + 1) * step
-                    lower[at, 2] = edges[keys[tile, 0]]
-                    upper[at, 2] = edges[keys[tile, 0] + 1]
-                    at += 1
+def _few_tiles(boxes: Boxes, step: float, edges: FloatArray, max_cells: int) -> Tiles | None:
+    ranges = _ranges(boxes, step, edges)
+    layers = len(edges) - 1
+    largest = (ranges[:, 1::2] - ranges[:, ::2] + 1).prod(axis=1).max(initial=0)
+    if largest > max(max_cells, 8) or tiles_met(ranges, layers) > _LARGEST_WORK:
+        return None
+    tiles = filled_tiles(ranges, layers)
+    return tiles if len(tiles) <= max_cells else None

@@ -25,16 +25,21 @@ class PoseSet:
         Which limit stopped the last search early, "" if none.
     nodes
         How many boxes the last search contracted.
+    bad
+        How many beams of the last scan are bad at least, wherever in a box the robot is; int16 of shape (n,), 0 where it is not known.
     """
 
     boxes: Boxes
     carried: npt.NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
     limited: Limit = ""
     nodes: int = 0
+    bad: npt.NDArray[np.int16] = field(default_factory=lambda: np.empty(0, dtype=np.int16))
 
     def __post_init__(self) -> None:
         if len(self.carried) != len(self.boxes):
             object.__setattr__(self, "carried", np.zeros(len(self.boxes), dtype=np.bool_))
+        if len(self.bad) != len(self.boxes):
+            object.__setattr__(self, "bad", np.zeros(len(self.boxes), dtype=np.int16))
 
     def __len__(self) -> int:
         return len(self.boxes)
@@ -51,5 +56,9 @@ def unite(confirmed: PoseSet, carried: PoseSet) -> PoseSet:
     """Return the union of poses that a scan allows and poses that are only predicted."""
     flags = np.concatenate([np.zeros(len(confirmed), dtype=np.bool_), np.ones(len(carried), dtype=np.bool_)])
     return PoseSet(
-        Boxes.concatenate([confirmed.boxes, carried.boxes]), flags, confirmed.limited or carried.limited, confirmed.nodes + carried.nodes
+        Boxes.concatenate([confirmed.boxes, carried.boxes]),
+        flags,
+        confirmed.limited or carried.limited,
+        confirmed.nodes + carried.nodes,
+        np.concatenate([confirmed.bad, carried.bad]),
     )

@@ -11,17 +11,16 @@ from ial.lidar.beams import Beams
 from ial.lidar.corners import OFFSET, corners
 from ial.lidar.end_points import NEAR, relative_bounds
 from ial.lidar.narrowing import narrow
-from ial.maps.cell_index import CellIndex
+from ial.maps.cell_index import BORDER, CellIndex
 
 
 @kernel
-def _fits(xl, yl, xu, yu, bounds, q, flat, row_limit, column_limit):  # type: ignore[no-untyped-def]
+def _fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit):  # type: ignore[no-untyped-def]
     """Return whether at most q beams certainly miss every occupied cell from all of a box, whose bounds are given in cells.
 
     A beam fails if the rectangle of its possible end points meets no occupied cell: four look-ups in the summed-area table.
     """
     beams = len(bounds)
-    stride = np.uint64(column_limit + 1)
     failed = 0
     for i in range(beams):
         left, below, right, above = corners(bounds, i, xl, yl, xu, yu, column_limit, row_limit)
@@ -38,10 +37,11 @@ def _fits(xl, yl, xu, yu, bounds, q, flat, row_limit, column_limit):  # type: ig
 
 
 @kernel
-def _test(start, stop, order, lower, upper, ends, directions, errors, q, map_error, resolution, table, keep):  # type: ignore[no-untyped-def]
-    flat = table.reshape(-1)
-    row_limit = np.int32(table.shape[0] - 1)
-    column_limit = np.int32(table.shape[1] - 1)
+def _test(start, stop, order, lower, upper, ends, directions, errors, q, map_error, resolution, bordered, keep):  # type: ignore[no-untyped-def]
+    flat = bordered.reshape(-1)[BORDER:]
+    stride = np.uint64(bordered.shape[1])
+    row_limit = np.int32(bordered.shape[0] - 1)
+    column_limit = np.int32(bordered.shape[1] - 1 - 2 * BORDER)
     bounds = np.empty((len(ends), 4))
     theta_lower = np.nan
     theta_upper = np.nan
@@ -58,7 +58,7 @@ def _test(start, stop, order, lower, upper, ends, directions, errors, q, map_err
         near = min(xl, yl) >= -NEAR and max(xu, yu) <= NEAR  # elsewhere the indices would not be right, so the box is kept
         xl, yl = xl + OFFSET, yl + OFFSET
         xu, yu = xu + (OFFSET + 1.0), yu + (OFFSET + 1.0)
-        keep[row] = not near or _fits(xl, yl, xu, yu, bounds, q, flat, row_limit, column_limit)
+        keep[row] = not near or _fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit)
 
 
 @kernel
@@ -117,7 +117,7 @@ class ScanContractor:
         order = group_rows(boxes.lower[:, 2], boxes.upper[:, 2])
         beams = self.beams
         evidence = (beams.ends, beams.directions, beams.errors, beams.outliers, self.map_error_m)
-        run(_test, len(boxes), order, boxes.lower, boxes.upper, *evidence, self.occupied.resolution, self.occupied.table, keep)
+        run(_test, len(boxes), order, boxes.lower, boxes.upper, *evidence, self.occupied.resolution, self.occupied.bordered, keep)
         return keep
 
     def contract(self, boxes: Boxes) -> Boxes:

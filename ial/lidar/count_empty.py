@@ -1,0 +1,57 @@
+"""How many of eight neighbouring rectangles hold no cell, as one step of the processor's vector unit.
+
+Eight rectangles of equal size, side by side a cell apart, have their corners side by side in a summed-area table. So four loads fetch the
+corners of all eight; this is the innermost step of the localizer.
+"""
+
+from typing import Any
+
+from llvmlite import ir
+from numba import types
+from numba.extending import intrinsic
+
+LANES = 8
+"""How many rectangles are looked up together."""
+
+_INT32 = ir.IntType(32)
+
+
+@intrinsic
+def count_empty(typingctx, table, above_right, above_left, below_right, below_left, counts, at):  # type: ignore[no-untyped-def]
+    """Add 1 to each of ``counts[at : at + 8]`` whose rectangle holds no cell of the set.
+
+    Parameters
+    ----------
+    table
+        Summed-area table, contiguous int32 of shape (n,).
+    above_right, above_left, below_right, below_left
+        Where in the table the corners of the first rectangle are, int64; those of the others follow. Nothing checks them.
+    counts
+        Contiguous int32.
+    at
+        int64.
+    """
+    signature = types.void(table, above_right, above_left, below_right, below_left, counts, at)
+
+    def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        lanes = ir.VectorType(_INT32, LANES)
+        table, *corners, counts, at = arguments
+
+        def pointer(number: int, array: Any, index: Any) -> Any:
+            data = context.make_array(signature.args[number])(context, builder, array).data
+            return builder.bitcast(builder.gep(data, [index]), lanes.as_pointer())
+
+        def load(pointer: Any) -> Any:
+            vector = builder.load(pointer)
+            vector.align = 4
+            return vector
+
+        one, two, three, four = (load(pointer(0, table, corner)) for corner in corners)
+        cells = builder.add(builder.sub(builder.sub(one, two), three), four)
+        empty = builder.sext(builder.icmp_signed("==", cells, ir.Constant(lanes, [0] * LANES)), lanes)  # -1 where there is none
+        place = pointer(5, counts, at)
+        stored = builder.store(builder.sub(load(place), empty), place)
+        stored.align = 4
+        return context.get_dummy_value()
+
+    return signature, codegen
