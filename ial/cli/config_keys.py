@@ -15,7 +15,12 @@ def _number(value: Any) -> Any:
     return value
 
 
-def _outliers(value: Any) -> int | float:
+def _outliers(value: Any) -> int | float | Literal["auto"]:
+    """Return the same as `_share`, or the word auto."""
+    return "auto" if value == "auto" else _share(value)
+
+
+def _share(value: Any) -> int | float:
     """Keep the difference between 1, one beam, and 1.0, all of them."""
     text = value.strip() if isinstance(value, str) else value
     try:
@@ -29,6 +34,7 @@ def _outliers(value: Any) -> int | float:
 
 Bound = Annotated[float, BeforeValidator(_number), Field(ge=0.0, allow_inf_nan=False)]
 Size = Annotated[float, BeforeValidator(_number), Field(gt=0.0, allow_inf_nan=False)]
+Share = Annotated[int | float, PlainValidator(_share)]
 Count = Annotated[int, BeforeValidator(_number), Field(ge=1)]
 
 
@@ -65,7 +71,12 @@ class ConfigKeys(_Keys):
     bearing_error_rad: Bound = Field(description="bound of its bearing error, rad")
     map_error_m: Bound = Field(description="how far an obstacle may be from its occupied cells, m")
     motion: MotionKeys = Field(description="bounds of the odometry")
-    outliers: Annotated[int | float, PlainValidator(_outliers)] = Field(description="how many beams may be bad: a number or a fraction")
+    outliers: Annotated[int | float | Literal["auto"], PlainValidator(_outliers)] = Field(
+        description="how many beams may be bad: a number, a fraction, or auto"
+    )
+    outlier_margin: Share = Field(description="with auto: how many more than needed, a number or a fraction")
+    max_outliers: Share = Field(description="with auto: a scan that needs more is rejected, a number or a fraction")
+    max_jump: Share = Field(description="with auto: so is one that needs so many more than the one before, a number or a fraction")
     precision: SizeKeys = Field(description="the widths below which a box is not bisected")
     max_boxes: Count = Field(description="a search with more boxes ends with a coarser answer")
     max_beams: Count = Field(description="how many beams of a scan are used at most")
@@ -93,6 +104,9 @@ class ConfigKeys(_Keys):
                 ),
             ),
             outliers=self.outliers,
+            outlier_margin=self.outlier_margin,
+            max_outliers=self.max_outliers,
+            max_jump=self.max_jump,
             precision=Precision(**self.precision.model_dump()),
             max_boxes=self.max_boxes,
             max_beams=self.max_beams,

@@ -37,7 +37,7 @@ def localize(
         tuple[float, float] | None, typer.Option(metavar="M RAD", help="How far off that may be in x and y, and in θ.")
     ] = None,
     outliers: Annotated[
-        str | None, typer.Option(metavar="Q", help="How many of the used beams may be bad: a whole number, or a fraction like 0.2.")
+        str | None, typer.Option(metavar="Q", help="How many of the used beams may be bad: a whole number, a fraction like 0.2, or auto.")
     ] = None,
     domain: Annotated[Literal["free", "free_or_unknown"] | None, typer.Option(help="Where the base may be.", show_default="free")] = None,
     settings: Annotated[

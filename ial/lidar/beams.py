@@ -1,5 +1,6 @@
 """`Beams`: the evidence of one scan, in the frame of the robot."""
 
+import dataclasses
 import math
 from dataclasses import dataclass
 
@@ -8,7 +9,7 @@ import numpy.typing as npt
 
 from ial.contractors.boxes import FloatArray
 from ial.datasets.scan import BeamClass, LaserScan
-from ial.lidar.config import Bounds
+from ial.lidar.config import Bounds, LocalizerConfig
 
 _ROUND_UP = 1.0 + 2.0**-40  # far above the rounding of the few operations that make a half-width
 
@@ -28,12 +29,18 @@ class Beams:
         the range error, the bearing error, and all rounding from the recorded numbers to `ends` and `directions`.
     outliers
         q: how many of these beams may be bad.
+    margin
+        If given, q is chosen at the scan: the smallest that leaves a pose, plus this, and at most `outliers`.
+    jump
+        If given, and q is chosen at the scan: it exceeds that of the scan before by at most this.
     """
 
     ends: FloatArray
     directions: FloatArray
     errors: FloatArray
     outliers: int
+    margin: int | None = None
+    jump: int | None = None
 
     def __len__(self) -> int:
         return len(self.ends)
@@ -42,6 +49,15 @@ class Beams:
     def informative(self) -> bool:
         """Whether the scan can exclude any pose at all: with as many outliers as beams it cannot."""
         return self.outliers < len(self)
+
+
+def scan_beams(scan: LaserScan, config: LocalizerConfig) -> Beams:
+    """Return the evidence of a scan as a configuration wants it used."""
+    if config.outliers != "auto":
+        return select_beams(scan, config.bounds, config.outliers, config.max_beams)
+    beams = select_beams(scan, config.bounds, config.max_outliers, config.max_beams)
+    margin, jump = (_number(share, len(beams)) for share in (config.outlier_margin, config.max_jump))
+    return dataclasses.replace(beams, margin=margin, jump=jump)
 
 
 def select_beams(scan: LaserScan, bounds: Bounds, outliers: int | float, max_beams: int) -> Beams:
@@ -54,7 +70,7 @@ def select_beams(scan: LaserScan, bounds: Bounds, outliers: int | float, max_bea
     """
     hits = np.flatnonzero(scan.classes() == BeamClass.HIT)
     used = hits if len(hits) <= max_beams else hits[np.arange(max_beams) * len(hits) // max_beams]
-    q = outliers if isinstance(outliers, int) else math.floor(outliers * len(used))
+    q = _number(outliers, len(used))
 
     lower, upper = (bound[used] for bound in scan.bearings())
     bearing = 0.5 * (lower + upper)
@@ -69,6 +85,10 @@ def select_beams(scan: LaserScan, bounds: Bounds, outliers: int | float, max_bea
     rounding = 2.0**-48 * (reach + abs(scan.mounting.x) + abs(scan.mounting.y))  # of the products and sums that made `ends`
     errors = np.stack([radial + 0.5 * reach * turn**2, reach * turn], axis=1) + rounding[:, None]
     return Beams(ends, directions, errors * _ROUND_UP, q)
+
+
+def _number(share: int | float, beams: int) -> int:
+    return share if isinstance(share, int) else math.floor(share * beams)
 
 
 def _angle_rounding(angle: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:

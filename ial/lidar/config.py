@@ -9,6 +9,7 @@ from ial.errors import ConfigError
 
 Domain = Literal["free", "free_or_unknown"]
 Recovery = Literal["union", "restart"]
+Outliers = int | float | Literal["auto"]
 
 
 @dataclass(frozen=True)
@@ -82,7 +83,14 @@ class LocalizerConfig:
     bounds
         How wrong the data may be.
     outliers
-        How many of the used beams may be bad: a whole number, or a fraction of them.
+        How many of the used beams may be bad: a whole number, a fraction of them, or ``"auto"``: for each scan the smallest number that
+        leaves a pose, plus `outlier_margin`. The guarantee then holds where the truth has at most so many bad beams.
+    outlier_margin
+        With ``"auto"``: what is added, a whole number or a fraction.
+    max_outliers
+        With ``"auto"``: a scan that needs more than this, a whole number or a fraction, is rejected.
+    max_jump
+        With ``"auto"``: so is a scan that needs this many more than the one before it.
     precision
         How fine the answer shall be.
     max_boxes
@@ -101,7 +109,10 @@ class LocalizerConfig:
     """
 
     bounds: Bounds = field(default_factory=Bounds)
-    outliers: int | float = 0.12
+    outliers: Outliers = 0.12
+    outlier_margin: int | float = 0.05
+    max_outliers: int | float = 0.35
+    max_jump: int | float = 0.2
     precision: Precision = field(default_factory=Precision)
     max_boxes: int = 4_000_000
     max_beams: int = 180
@@ -111,10 +122,11 @@ class LocalizerConfig:
     max_seconds: float | None = None
 
     def __post_init__(self) -> None:
-        if isinstance(self.outliers, bool) or not (
-            (isinstance(self.outliers, int) and self.outliers >= 0) or (isinstance(self.outliers, float) and 0.0 <= self.outliers <= 1.0)
-        ):
-            raise ConfigError(f"outliers is {self.outliers!r}; give a whole number of beams, or a fraction from 0.0 to 1.0")
+        for name in ("outliers", "outlier_margin", "max_outliers", "max_jump"):
+            value = getattr(self, name)
+            if not _is_share(value) and not (name == "outliers" and value == "auto"):
+                also = ", or 'auto'" if name == "outliers" else ""
+                raise ConfigError(f"{name} is {value!r}; give a whole number of beams, or a fraction from 0.0 to 1.0{also}")
         for name in ("max_boxes", "max_beams"):
             value = getattr(self, name)
             if not isinstance(value, int) or value < 1:
@@ -125,6 +137,12 @@ class LocalizerConfig:
             raise ConfigError(f"recovery is {self.recovery!r}; give 'union' or 'restart'")
         if self.max_seconds is not None:
             _check("max_seconds", self.max_seconds, positive=True)
+
+
+def _is_share(value: object) -> bool:
+    if isinstance(value, bool):
+        return False
+    return (isinstance(value, int) and value >= 0) or (isinstance(value, float) and 0.0 <= value <= 1.0)
 
 
 def _check(name: str, value: float, *, positive: bool = False) -> None:

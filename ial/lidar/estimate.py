@@ -14,6 +14,8 @@ from ial.lidar.pose_set import PoseSet
 from ial.maps.occupancy_grid import OccupancyGrid
 from ial.pose import Pose, wrap
 
+_FARTHER = 1.0 + 1e-9  # far above the rounding of a distance within a map
+
 Status = Literal["localized", "ambiguous", "symmetric", "lost", "blind"]
 
 
@@ -33,6 +35,8 @@ class Hypothesis:
         Sum of the volumes of the boxes (m² rad); a measure, not a bound.
     prediction
         Whether it comes only from a prediction that a scan has rejected.
+    spare_beams
+        How many more beams might have been bad: at most so many fewer than allowed are bad anywhere in it. None where it is not known.
     """
 
     x: tuple[float, float]
@@ -41,6 +45,7 @@ class Hypothesis:
     boxes: int
     volume: float
     prediction: bool = False
+    spare_beams: int | None = None
 
     @property
     def half_widths(self) -> tuple[float, float]:
@@ -73,13 +78,15 @@ class Estimate:
     beams
         How many beams were used.
     outliers_allowed
-        q: how many of them may be bad.
+        q: how many of them may be bad; with ``outliers: auto``, what the scan needed and the margin.
     uninformative
         Whether the scan could exclude nothing: no usable beams, or as many allowed outliers.
     limited
         Which limit made the answer coarser than asked for: "", "boxes" or "time".
     elapsed_s
         How long it took.
+    radius_m
+        While localized: no possible position is farther from `pose` than this, in metres.
     """
 
     stamp_ns: int
@@ -92,6 +99,7 @@ class Estimate:
     uninformative: bool
     limited: Limit
     elapsed_s: float
+    radius_m: float | None = None
 
 
 def find_hypotheses(poses: PoseSet, grid: OccupancyGrid) -> tuple[Hypothesis, ...]:
@@ -114,9 +122,16 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid) -> tuple[Hypothesis, ..
                 boxes=len(rows),
                 volume=float(volumes[rows].sum()),
                 prediction=bool(poses.carried[rows].all()),
+                spare_beams=None if poses.limited or poses.carried[rows].all() else poses.outliers - int(poses.bad[rows].min()),
             )
         )
     return tuple(sorted(found, key=lambda each: -each.volume))
+
+
+def radius(poses: PoseSet, pose: Pose) -> float:
+    """Return a distance (m) from a pose, in the grid's frame, that no position of a set exceeds."""
+    x, y = np.maximum(np.abs(poses.boxes.lower[:, :2] - (pose.x, pose.y)), np.abs(poses.boxes.upper[:, :2] - (pose.x, pose.y))).T
+    return float(np.hypot(x, y).max() * _FARTHER)
 
 
 def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: bool, found: bool) -> Status:

@@ -6,9 +6,9 @@ import time
 from ial.contractors.boxes import Boxes
 from ial.datasets.motion import Motion
 from ial.datasets.scan import LaserScan
-from ial.lidar.beams import Beams, select_beams
-from ial.lidar.config import Bounds, LocalizerConfig
-from ial.lidar.estimate import Estimate, find_hypotheses, judge
+from ial.lidar.beams import Beams, scan_beams
+from ial.lidar.config import Bounds, LocalizerConfig, Outliers
+from ial.lidar.estimate import Estimate, find_hypotheses, judge, radius
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet
 from ial.maps.occupancy_grid import OccupancyGrid
@@ -28,7 +28,7 @@ class Localizer:
     bounds
         How wrong the data may be; overrides that of `config`.
     outliers
-        How many beams may be bad, a whole number or a fraction; overrides that of `config`.
+        How many beams may be bad, a whole number, a fraction or "auto"; overrides that of `config`.
     config
         Everything else.
     initial
@@ -56,7 +56,7 @@ class Localizer:
         self,
         grid: OccupancyGrid,
         bounds: Bounds | None = None,
-        outliers: int | float | None = None,
+        outliers: Outliers | None = None,
         config: LocalizerConfig | None = None,
         initial: Boxes | None = None,
     ) -> None:
@@ -103,7 +103,7 @@ class Localizer:
 
     def _estimate(self, tracker: SetMembershipFilter[PoseSet, Motion | None, Beams], motion: Motion | None, scan: LaserScan) -> Estimate:
         begun = time.perf_counter()
-        beams = select_beams(scan, self.config.bounds, self.config.outliers, self.config.max_beams)
+        beams = scan_beams(scan, self.config)
         rejection = tracker.update(motion, beams)
         poses = tracker.states
         hypotheses = find_hypotheses(poses, self.grid)
@@ -116,7 +116,8 @@ class Localizer:
             pose=pose,
             poses=poses,
             beams=len(beams),
-            outliers_allowed=beams.outliers,
+            outliers_allowed=poses.outliers if beams.informative else beams.outliers,
+            radius_m=None if pose is None else radius(poses, self.grid.pose_to_grid(pose)),
             uninformative=not beams.informative,
             limited=poses.limited,
             elapsed_s=time.perf_counter() - begun,

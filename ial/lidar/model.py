@@ -1,6 +1,8 @@
 """`LidarModel`: a robot with a planar lidar in an occupancy grid, as an instance of `ial.membership.Model`."""
 
+import dataclasses
 import math
+from collections.abc import Callable
 
 import numpy as np
 import numpy.typing as npt
@@ -105,13 +107,17 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         moved = self._within_map(move(states.boxes, motion))
         tiles = self.lattice.few_tiles(moved, min(_LAID_OUT_CELLS, self.config.max_boxes))
         if tiles is None:
-            return self.contract(PoseSet(self._laid_out(moved)), reading)
-        return self._tried(tiles, moved, reading, 0, Deadline(self.config.max_seconds))
+            return self.contract(PoseSet(self._laid_out(moved), outliers=states.outliers), reading)
+        deadline = Deadline(self.config.max_seconds)
+        return _allowing(reading, states.outliers, lambda most: self._tried(tiles, moved, most, 0, deadline))
 
     def contract(self, states: PoseSet, reading: Beams) -> PoseSet:
         """Return the poses that a scan allows. While both confirmed and carried poses survive, they stay apart."""
         if not reading.informative:
             return states
+        return _allowing(reading, states.outliers, lambda most: self._contracted(states, most))
+
+    def _contracted(self, states: PoseSet, reading: Beams) -> PoseSet:
         confirmed, carried = (self._paved(states.boxes[rows], reading) for rows in (~states.carried, states.carried))
         if not len(confirmed):
             return carried
@@ -121,7 +127,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
 
     def _paved(self, boxes: Boxes, reading: Beams) -> PoseSet:
         if not len(boxes):
-            return PoseSet(boxes)
+            return PoseSet(boxes, outliers=reading.outliers)
         deadline = Deadline(self.config.max_seconds)
         contractor = PoseContractor(reading, self.occupied, self.domain, self.config.bounds.map_error_m)
         coarse = self.lattice.widths * _COARSE
@@ -133,13 +139,13 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         if limited:
             # A search that was stopped leaves large boxes: finer cells than it had boxes would say no more.
             cells = self.lattice.cover(boxes, min(2 * len(boxes), self.config.max_boxes))
-            return PoseSet(cells, limited=limited, nodes=nodes)
+            return PoseSet(cells, limited=limited, nodes=nodes, outliers=reading.outliers)
         return self._tried(self.lattice.tiles(boxes), boxes, reading, nodes, deadline)
 
     def _tried(self, tiles: Tiles, boxes: Boxes, reading: Beams, nodes: int, deadline: Deadline) -> PoseSet:
         """Return the cells that may hold a consistent pose; where they are too many, or the time is up, coarse ones that cover `boxes`."""
         if not len(tiles.keys):
-            return PoseSet(Boxes.none(3), nodes=nodes)
+            return PoseSet(Boxes.none(3), nodes=nodes, outliers=reading.outliers)
         found, counts, total = [], [], 0
         start = 0
         while start < len(tiles.keys):
@@ -152,12 +158,13 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
             total += len(left)
             if not portion or total > self.config.max_boxes:
                 limited: Limit = "boxes" if portion else "time"
-                return PoseSet(self.lattice.cover(boxes, min(2 * len(boxes), self.config.max_boxes)), limited=limited, nodes=nodes)
+                cells = self.lattice.cover(boxes, min(2 * len(boxes), self.config.max_boxes))
+                return PoseSet(cells, limited=limited, nodes=nodes, outliers=reading.outliers)
             found.append(self.lattice.boxes(left))
             counts.append(left.values(least))
             deadline.worked(portion)
             start += portion
-        return PoseSet(Boxes.concatenate(found), bad=np.concatenate(counts), nodes=nodes + len(tiles))
+        return PoseSet(Boxes.concatenate(found), nodes=nodes + len(tiles), bad=np.concatenate(counts), outliers=reading.outliers)
 
     def in_domain(self, pose: Pose) -> bool:
         """Return whether a position in the grid's frame lies in a cell of the domain."""
@@ -180,6 +187,34 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         if len(found) and self.config.recovery == "restart":
             return found
         return unite(found, predicted)
+
+
+def _allowing(reading: Beams, before: int, search: Callable[[Beams], PoseSet]) -> PoseSet:
+    """Return what a search leaves, with as many bad beams as the reading allows.
+
+    Where the reading leaves the number open it is the smallest one that leaves a pose, plus the margin. The search is repeated with more
+    until it leaves one; what was allowed before is a good guess. Nothing is left if more were needed than the limit, or than a jump allows.
+
+    Parameters
+    ----------
+    before
+        How many were allowed at the scan before; 0 if there was none.
+    """
+    if reading.margin is None:
+        return search(reading)
+    limit = reading.outliers if reading.jump is None or not before else min(reading.outliers, before + reading.jump)
+    most = min(max(before, 2 * reading.margin), limit)
+    while True:
+        found = search(dataclasses.replace(reading, outliers=most, margin=None))
+        if len(found):
+            needed = most if found.limited else min(int(found.bad.min()) + reading.margin, limit)
+            if needed <= most:
+                return found.within(needed)
+            most = needed
+        elif most == limit:
+            return found
+        else:
+            most = min(2 * most + 1, limit)
 
 
 def divide(resolution: float, position_m: float) -> tuple[int, int]:

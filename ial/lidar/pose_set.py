@@ -27,6 +27,8 @@ class PoseSet:
         How many boxes the last search contracted.
     bad
         How many beams of the last scan are bad at least, wherever in a box the robot is; int16 of shape (n,), 0 where it is not known.
+    outliers
+        How many beams of the last scan may be bad.
     """
 
     boxes: Boxes
@@ -34,6 +36,7 @@ class PoseSet:
     limited: Limit = ""
     nodes: int = 0
     bad: npt.NDArray[np.int16] = field(default_factory=lambda: np.empty(0, dtype=np.int16))
+    outliers: int = 0
 
     def __post_init__(self) -> None:
         if len(self.carried) != len(self.boxes):
@@ -43,6 +46,11 @@ class PoseSet:
 
     def __len__(self) -> int:
         return len(self.boxes)
+
+    def within(self, outliers: int) -> "PoseSet":
+        """Return the boxes that may hold a pose from which at most so many beams are bad."""
+        rows = self.bad <= outliers
+        return PoseSet(self.boxes[rows], self.carried[rows], self.limited, self.nodes, self.bad[rows], outliers)
 
     def contains(self, pose: Pose) -> bool:
         """Return whether a pose, in the grid's frame, lies in one of the boxes; headings are taken modulo 2π."""
@@ -61,4 +69,5 @@ def unite(confirmed: PoseSet, carried: PoseSet) -> PoseSet:
         confirmed.limited or carried.limited,
         confirmed.nodes + carried.nodes,
         np.concatenate([confirmed.bad, carried.bad]),
+        max(confirmed.outliers, carried.outliers),
     )

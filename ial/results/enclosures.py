@@ -22,7 +22,7 @@ class Enclosure:
         Time of the scan, nanoseconds.
     index
         Number of the scan in the recording, from 0.
-    status, hypotheses, pose, beams, outliers_allowed, uninformative, elapsed_s
+    status, hypotheses, pose, beams, outliers_allowed, uninformative, elapsed_s, radius_m
         As in `Estimate`.
     limited
         Which limit made the answer coarser than asked for, "boxes" or "time"; None for none.
@@ -38,6 +38,7 @@ class Enclosure:
     uninformative: bool
     limited: str | None
     elapsed_s: float
+    radius_m: float | None = None
 
     @classmethod
     def of(cls, step: Step, estimate: Estimate) -> "Enclosure":
@@ -53,6 +54,7 @@ class Enclosure:
             uninformative=estimate.uninformative,
             limited=estimate.limited or None,
             elapsed_s=estimate.elapsed_s,
+            radius_m=estimate.radius_m,
         )
 
 
@@ -60,8 +62,9 @@ class EnclosuresFile(JsonLines):
     """``enclosures.jsonl``, one line per processed scan.
 
     A line holds ``stamp``, ``index``, ``status``, ``hypotheses``, ``pose`` (null unless localized), ``beams``, ``outliers_allowed``,
-    ``uninformative`` where it is true, ``limited`` (null, "boxes" or "time") and ``elapsed_s``. A hypothesis has its bounds ``x``, ``y``,
-    ``theta`` as [lower, upper], ``boxes``, ``volume``, and ``prediction`` where it is true.
+    ``uninformative`` where it is true, ``limited`` (null, "boxes" or "time"), ``radius_m`` (null unless localized) and ``elapsed_s``. A
+    hypothesis has its bounds ``x``, ``y``, ``theta`` as [lower, upper], ``boxes``, ``volume``, ``spare_beams`` where they are known, and
+    ``prediction`` where it is true.
 
     Parameters
     ----------
@@ -81,12 +84,15 @@ class EnclosuresFile(JsonLines):
             outliers_allowed=estimate.outliers_allowed,
             **({"uninformative": True} if estimate.uninformative else {}),
             limited=estimate.limited or None,
+            radius_m=estimate.radius_m,
             elapsed_s=estimate.elapsed_s,
         )
 
 
 def _hypothesis(hypothesis: Hypothesis) -> dict[str, Any]:
     record = {name: getattr(hypothesis, name) for name in ("x", "y", "theta", "boxes", "volume")}
+    if hypothesis.spare_beams is not None:
+        record["spare_beams"] = hypothesis.spare_beams
     return {**record, "prediction": True} if hypothesis.prediction else record
 
 
@@ -105,9 +111,10 @@ def read_enclosures(path: str | Path) -> Iterator[Enclosure]:
             uninformative=line.get("uninformative", False),
             limited=line["limited"],
             elapsed_s=float(line["elapsed_s"]),
+            radius_m=None if line.get("radius_m") is None else float(line["radius_m"]),
         )
 
 
 def _parsed(record: dict[str, Any]) -> Hypothesis:
     x, y, theta = ((float(record[name][0]), float(record[name][1])) for name in ("x", "y", "theta"))
-    return Hypothesis(x, y, theta, record["boxes"], float(record["volume"]), record.get("prediction", False))
+    return Hypothesis(x, y, theta, record["boxes"], float(record["volume"]), record.get("prediction", False), record.get("spare_beams"))

@@ -8,7 +8,7 @@ import numpy as np
 from ial.contractors.intervals.angle import contains_angle
 from ial.datasets.recording import Step
 from ial.datasets.trajectory import Trajectory
-from ial.lidar.beams import select_beams
+from ial.lidar.beams import scan_beams
 from ial.lidar.estimate import Estimate
 from ial.lidar.localizer import Localizer
 from ial.pose import Pose
@@ -65,7 +65,7 @@ class Containment:
             return
         in_grid = self._localizer.grid.pose_to_grid(pose)
         contained = estimate.poses.contains(in_grid)
-        broken = self._broken(step, pose, in_grid)
+        broken = self._broken(step, pose, in_grid, estimate.outliers_allowed)
         before = self._localizer.start.contains(in_grid) if self._fresh else self._previous is not None and self._was_contained
         holds = not broken and before
         self._counts["reference"] += 1
@@ -86,12 +86,12 @@ class Containment:
     def _fresh(self) -> bool:
         return self._static or not self._started
 
-    def _broken(self, step: Step, pose: Pose, in_grid: Pose) -> list[str]:
+    def _broken(self, step: Step, pose: Pose, in_grid: Pose, allowed: int) -> list[str]:
         """Return which assumptions the reference pose breaks at a scan, among beams, motion and domain."""
         config = self._localizer.config
-        beams = select_beams(step.scan, config.bounds, config.outliers, config.max_beams)
+        beams = scan_beams(step.scan, config)
         bad = len(beams) - int(good_beams(beams, in_grid, self._localizer.grid, config.bounds.map_error_m).sum())
-        broken = ["beams"] if bad > beams.outliers else []
+        broken = ["beams"] if bad > allowed else []
         previous = None if self._fresh else self._previous
         if previous is not None and step.motion is not None and not step.motion.contains(previous.inverse() @ pose):
             broken.append("motion")

@@ -17,7 +17,10 @@ ERROR = st.builds(ErrorBound, BOUND, BOUND, BOUND)
 CONFIG = st.builds(
     LocalizerConfig,
     bounds=st.builds(Bounds, BOUND, BOUND, BOUND, st.builds(MotionBounds, ERROR, ERROR)),
-    outliers=st.integers(0, 100) | st.floats(0.0, 1.0),
+    outliers=st.just("auto") | st.integers(0, 100) | st.floats(0.0, 1.0),
+    outlier_margin=st.integers(0, 100) | st.floats(0.0, 1.0),
+    max_outliers=st.integers(0, 100) | st.floats(0.0, 1.0),
+    max_jump=st.integers(0, 100) | st.floats(0.0, 1.0),
     precision=st.builds(Precision, st.floats(1e-3, 1.0), st.floats(1e-3, 1.0)),
     max_boxes=st.integers(1, 2**40),
     max_beams=st.integers(1, 1000),

@@ -28,7 +28,16 @@ def test_a_run_reads_back_to_the_last_bit(sample_run: list[Any], tmp_path: Path)
     assert list(read_enclosures(path)) == [Enclosure.of(step, estimate) for step, estimate in sample_run]
 
 
-@given(x=PAIR, y=PAIR, theta=PAIR, volume=NUMBER, boxes=st.integers(0, 2**40), prediction=st.booleans(), stamp=st.integers(-(2**62), 2**62))
+@given(
+    x=PAIR,
+    y=PAIR,
+    theta=PAIR,
+    volume=NUMBER,
+    boxes=st.integers(0, 2**40),
+    prediction=st.booleans(),
+    stamp=st.integers(-(2**62), 2**62),
+    spare=st.none() | st.integers(0, 1000),
+)
 def test_any_numbers_read_back_to_the_last_bit(
     sample_run: list[Any],
     tmp_path_factory: pytest.TempPathFactory,
@@ -39,9 +48,13 @@ def test_any_numbers_read_back_to_the_last_bit(
     boxes: int,
     prediction: bool,
     stamp: int,
+    spare: int | None,
 ) -> None:
     step, estimate = sample_run[-1]
-    step, estimate = replace(step, stamp_ns=stamp), replace(estimate, hypotheses=(Hypothesis(x, y, theta, boxes, volume, prediction),))
+    step, estimate = (
+        replace(step, stamp_ns=stamp),
+        replace(estimate, hypotheses=(Hypothesis(x, y, theta, boxes, volume, prediction, spare),)),
+    )
     path = written(tmp_path_factory.mktemp("lines") / "enclosures.jsonl", [(step, estimate)])
     assert list(read_enclosures(path)) == [Enclosure.of(step, estimate)]
 
@@ -54,10 +67,10 @@ def test_a_line_holds_what_the_format_promises(estimate_of: Callable[..., Any], 
         estimate_of(7, box, status="localized"),
     ]
     first, second, third = map(json.loads, written(tmp_path / "enclosures.jsonl", run).read_text().splitlines())
-    keys = ["stamp", "index", "status", "hypotheses", "pose", "beams", "outliers_allowed", "limited", "elapsed_s"]
+    keys = ["stamp", "index", "status", "hypotheses", "pose", "beams", "outliers_allowed", "limited", "radius_m", "elapsed_s"]
     assert list(first) == keys
     assert (first["index"], first["status"], first["pose"], first["limited"]) == (4, "ambiguous", None, None)
-    assert list(first["hypotheses"][0]) == ["x", "y", "theta", "boxes", "volume"]
+    assert list(first["hypotheses"][0]) == ["x", "y", "theta", "boxes", "volume", "spare_beams"]
     assert (second["limited"], second["uninformative"], second["hypotheses"][0]["prediction"]) == ("time", True, True)
     assert third["pose"] == vars(run[2][1].pose)
     assert math.isclose(third["hypotheses"][0]["volume"], 0.05)
