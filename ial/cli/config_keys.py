@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PlainValidator
 
 from ial.datasets.motion import ErrorBound, MotionBounds
-from ial.lidar.config import Bounds, LocalizedSize, LocalizerConfig, Precision
+from ial.lidar.config import Bounds, FreeSpace, LocalizedSize, LocalizerConfig, Precision
 
 
 def _number(value: Any) -> Any:
@@ -64,6 +64,15 @@ class SizeKeys(_Keys):
     heading_rad: Size = Field(description="of the heading, rad")
 
 
+class FreeSpaceKeys(_Keys):
+    """Whether and how beams say that nothing stands in their way."""
+
+    use: bool = Field(description="whether blocked beams count as bad")
+    margin_m: Bound = Field(description="how far beside a ray, and before its end, the map may be wrong, m")
+    max_rays: Count = Field(description="how many beams are looked along at most")
+    no_return_m: Bound = Field(description="how far beams without return say that nothing stands, m; 0 to ignore them")
+
+
 class ConfigKeys(_Keys):
     """Every key of a configuration file."""
 
@@ -77,6 +86,7 @@ class ConfigKeys(_Keys):
     outlier_margin: Share = Field(description="with auto: how many more than needed, a number or a fraction")
     max_outliers: Share = Field(description="with auto: a scan that needs more is rejected, a number or a fraction")
     max_jump: Share = Field(description="with auto: so is one that needs so many more than the one before, a number or a fraction")
+    free_space: FreeSpaceKeys = Field(description="what beams say about free space")
     precision: SizeKeys = Field(description="the widths below which a box is not bisected")
     max_boxes: Count = Field(description="a search with more boxes ends with a coarser answer")
     max_beams: Count = Field(description="how many beams of a scan are used at most")
@@ -107,6 +117,7 @@ class ConfigKeys(_Keys):
             outlier_margin=self.outlier_margin,
             max_outliers=self.max_outliers,
             max_jump=self.max_jump,
+            free_space=FreeSpace(**self.free_space.model_dump()),
             precision=Precision(**self.precision.model_dump()),
             max_boxes=self.max_boxes,
             max_beams=self.max_beams,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ial.lidar.config import Bounds as Bounds
+    from ial.lidar.config import FreeSpace as FreeSpace
     from ial.lidar.config import LocalizedSize as LocalizedSize
     from ial.lidar.config import LocalizerConfig as LocalizerConfig
     from ial.lidar.config import Precision as Precision
@@ -22,7 +23,7 @@ else:
     __getattr__, __dir__, __all__ = _lazy(
         __name__,
         {
-            "config": ("Bounds", "LocalizedSize", "LocalizerConfig", "Precision"),
+            "config": ("Bounds", "FreeSpace", "LocalizedSize", "LocalizerConfig", "Precision"),
             "estimate": ("Estimate", "Hypothesis"),
             "localizer": ("Localizer",),
             "pose_set": ("PoseSet",),

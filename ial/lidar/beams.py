@@ -9,7 +9,8 @@ import numpy.typing as npt
 
 from ial.contractors.boxes import FloatArray
 from ial.datasets.scan import BeamClass, LaserScan
-from ial.lidar.config import Bounds, LocalizerConfig
+from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
+from ial.lidar.rays import Rays
 
 _ROUND_UP = 1.0 + 2.0**-40  # far above the rounding of the few operations that make a half-width
 
@@ -29,6 +30,8 @@ class Beams:
         the range error, the bearing error, and all rounding from the recorded numbers to `ends` and `directions`.
     outliers
         q: how many of these beams may be bad.
+    rays
+        What the scan says about free space; None where that is not used.
     margin
         If given, q is chosen at the scan: the smallest that leaves a pose, plus this, and at most `outliers`.
     jump
@@ -39,11 +42,13 @@ class Beams:
     directions: FloatArray
     errors: FloatArray
     outliers: int
+    rays: Rays | None = None
     margin: int | None = None
     jump: int | None = None
 
     def __len__(self) -> int:
-        return len(self.ends)
+        """Return how many beams are used, those without return counted whose rays are."""
+        return len(self.ends) + (0 if self.rays is None else int((self.rays.beams < 0).sum()))
 
     @property
     def informative(self) -> bool:
@@ -53,38 +58,58 @@ class Beams:
 
 def scan_beams(scan: LaserScan, config: LocalizerConfig) -> Beams:
     """Return the evidence of a scan as a configuration wants it used."""
-    if config.outliers != "auto":
-        return select_beams(scan, config.bounds, config.outliers, config.max_beams)
-    beams = select_beams(scan, config.bounds, config.max_outliers, config.max_beams)
+    automatic = config.outliers == "auto"
+    outliers = config.max_outliers if config.outliers == "auto" else config.outliers
+    beams = select_beams(scan, config.bounds, outliers, config.max_beams, config.free_space)
+    if not automatic:
+        return beams
     margin, jump = (_number(share, len(beams)) for share in (config.outlier_margin, config.max_jump))
     return dataclasses.replace(beams, margin=margin, jump=jump)
 
 
-def select_beams(scan: LaserScan, bounds: Bounds, outliers: int | float, max_beams: int) -> Beams:
-    """Return the evidence of a scan: its hits, at most `max_beams` of them, spread evenly.
+def select_beams(scan: LaserScan, bounds: Bounds, outliers: int | float, max_beams: int, free_space: FreeSpace | None = None) -> Beams:
+    """Return the evidence of a scan: its hits, at most `max_beams` of them, spread evenly, and what it says about free space.
 
     The true reading lies in ``y ± range_error`` and the true bearing in ``β ± bearing_error``. Turning a reading of length Y by an angle of
     at most δ moves its end by at most Yδ across the beam and by Yδ²/2 along it.
 
     Source: Guyonneau et al. 2014, eq. 6, in the axes of REP-103.
     """
-    hits = np.flatnonzero(scan.classes() == BeamClass.HIT)
-    used = hits if len(hits) <= max_beams else hits[np.arange(max_beams) * len(hits) // max_beams]
-    q = _number(outliers, len(used))
-
-    lower, upper = (bound[used] for bound in scan.bearings())
-    bearing = 0.5 * (lower + upper)
+    classes = scan.classes()
+    used = _spread(np.flatnonzero(classes == BeamClass.HIT), max_beams)
+    angle, turn = _directions(scan, bounds.bearing_error_rad)
     reading = scan.ranges[used].astype(np.float64)
-    angle = scan.mounting.yaw + bearing
-    directions = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    directions = np.stack([np.cos(angle[used]), np.sin(angle[used])], axis=1)
     ends = np.array([scan.mounting.x, scan.mounting.y]) + reading[:, None] * directions
 
-    turn = bounds.bearing_error_rad + 0.5 * (upper - lower) + _angle_rounding(angle)
     radial = bounds.range_error_m + scan.range_slack()[used]
     reach = reading + radial
     rounding = 2.0**-48 * (reach + abs(scan.mounting.x) + abs(scan.mounting.y))  # of the products and sums that made `ends`
-    errors = np.stack([radial + 0.5 * reach * turn**2, reach * turn], axis=1) + rounding[:, None]
-    return Beams(ends, directions, errors * _ROUND_UP, q)
+    errors = np.stack([radial + 0.5 * reach * turn[used] ** 2, reach * turn[used]], axis=1) + rounding[:, None]
+    rays = None
+    if free_space is not None and free_space.use:
+        among = _spread(np.arange(len(used)), free_space.max_rays)
+        alone = np.flatnonzero(classes == BeamClass.NO_RETURN) if free_space.no_return_m else np.empty(0, dtype=np.intp)
+        alone = _spread(alone, free_space.max_rays)
+        farthest = min(free_space.no_return_m, scan.range_max) - bounds.range_error_m
+        lengths = np.concatenate([reading[among] - radial[among], np.full(len(alone), farthest)]) - free_space.margin_m
+        rows = np.concatenate([used[among], alone])
+        numbers = np.concatenate([among, np.full(len(alone), -1)]).astype(np.int64)
+        origin = np.array([scan.mounting.x, scan.mounting.y])
+        rays = Rays(origin, angle[rows], turn[rows], lengths * (1.0 - 2.0**-40), numbers, free_space.margin_m)
+    beams = Beams(ends, directions, errors * _ROUND_UP, 0, rays)
+    return dataclasses.replace(beams, outliers=_number(outliers, len(beams)))
+
+
+def _spread(rows: npt.NDArray[np.intp], most: int) -> npt.NDArray[np.intp]:
+    return rows if len(rows) <= most else rows[np.arange(most) * len(rows) // most]
+
+
+def _directions(scan: LaserScan, bearing_error: float) -> tuple[FloatArray, FloatArray]:
+    """Return the direction of each beam in the base frame, and by how much it may be wrong (rad)."""
+    lower, upper = scan.bearings()
+    angle = scan.mounting.yaw + 0.5 * (lower + upper)
+    return angle, bearing_error + 0.5 * (upper - lower) + _angle_rounding(angle)
 
 
 def _number(share: int | float, beams: int) -> int:

@@ -39,6 +39,37 @@ class Bounds:
 
 
 @dataclass(frozen=True)
+class FreeSpace:
+    """Whether and how beams say that nothing stands in their way.
+
+    A beam is *blocked* at a pose if its ray, and every ray beside it that is parallel and at most `margin_m` away, meets a closed occupied
+    cell more than `margin_m` and the range error before its reading. A blocked beam is bad.
+
+    Parameters
+    ----------
+    use
+        Whether blocked beams count.
+    margin_m
+        How far beside a ray, and before its end, the map may be wrong.
+    max_rays
+        How many beams of a scan are looked along at most.
+    no_return_m
+        Beams without return say that nothing stands within this distance, or within the sensor's range if that is less; 0 to ignore them.
+    """
+
+    use: bool = False
+    margin_m: float = 0.05
+    max_rays: int = 90
+    no_return_m: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check("free_space.margin_m", self.margin_m)
+        _check("free_space.no_return_m", self.no_return_m)
+        if not isinstance(self.max_rays, int) or self.max_rays < 1:
+            raise ConfigError(f"free_space.max_rays is {self.max_rays!r}; give a whole number of at least 1")
+
+
+@dataclass(frozen=True)
 class Precision:
     """The size below which a box is no longer bisected.
 
@@ -91,6 +122,8 @@ class LocalizerConfig:
         With ``"auto"``: a scan that needs more than this, a whole number or a fraction, is rejected.
     max_jump
         With ``"auto"``: so is a scan that needs this many more than the one before it.
+    free_space
+        Whether beams also say that nothing stands in their way.
     precision
         How fine the answer shall be.
     max_boxes
@@ -113,6 +146,7 @@ class LocalizerConfig:
     outlier_margin: int | float = 0.05
     max_outliers: int | float = 0.35
     max_jump: int | float = 0.2
+    free_space: FreeSpace = field(default_factory=FreeSpace)
     precision: Precision = field(default_factory=Precision)
     max_boxes: int = 4_000_000
     max_beams: int = 180

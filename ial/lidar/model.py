@@ -13,8 +13,10 @@ from ial.contractors.paving.paver import pave
 from ial.datasets.motion import Motion
 from ial.errors import ConfigError
 from ial.lidar.beams import Beams
+from ial.lidar.bit_columns import BitColumns
 from ial.lidar.cell_counts import count_cells
 from ial.lidar.config import LocalizerConfig
+from ial.lidar.free_space import count_blocked
 from ial.lidar.lattice import Lattice
 from ial.lidar.pose_contractor import PoseContractor
 from ial.lidar.pose_set import PoseSet, unite
@@ -55,8 +57,9 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         self.grid = grid
         self.config = config
         split, parts = divide(grid.resolution, config.precision.position_m)
-        self.occupied = _split_index(grid.mask(OCCUPIED), grid.resolution, split)
-        self.domain = _split_index(grid.mask(*allowed), grid.resolution, split)
+        self.occupied = CellIndex(_split(grid.mask(OCCUPIED), split), grid.resolution / split)
+        self.domain = CellIndex(_split(grid.mask(*allowed), split), grid.resolution / split)
+        self.bits = BitColumns(_split(grid.mask(OCCUPIED), split)) if config.free_space.use else None
         self.lattice = Lattice(parts * self.occupied.resolution, config.precision.heading_rad, parts)
         self._universe = PoseSet(self.lattice.root(grid.width_m, grid.height_m))
 
@@ -160,11 +163,20 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
                 limited: Limit = "boxes" if portion else "time"
                 cells = self.lattice.cover(boxes, min(2 * len(boxes), self.config.max_boxes))
                 return PoseSet(cells, limited=limited, nodes=nodes, outliers=reading.outliers)
-            found.append(self.lattice.boxes(left))
-            counts.append(left.values(least))
+            cells, bad = self._looked_along(self.lattice.boxes(left), left.values(least), reading)
+            found.append(cells)
+            counts.append(bad)
             deadline.worked(portion)
             start += portion
         return PoseSet(Boxes.concatenate(found), nodes=nodes + len(tiles), bad=np.concatenate(counts), outliers=reading.outliers)
+
+    def _looked_along(self, cells: Boxes, bad: npt.NDArray[np.int16], reading: Beams) -> tuple[Boxes, npt.NDArray[np.int16]]:
+        """Return the cells from which not too many beams are bad or blocked, and how many are at least."""
+        if self.bits is None:
+            return cells, bad
+        bad = count_blocked(cells, bad, reading, self.lattice.parts, self.occupied, self.bits, self.config.bounds.map_error_m)
+        rows = bad <= reading.outliers
+        return cells[rows], bad[rows]
 
     def in_domain(self, pose: Pose) -> bool:
         """Return whether a position in the grid's frame lies in a cell of the domain."""
@@ -228,7 +240,5 @@ def divide(resolution: float, position_m: float) -> tuple[int, int]:
     return math.ceil(2.0 * resolution / position_m * (1.0 - 1e-6)), 2
 
 
-def _split_index(mask: npt.NDArray[np.bool_], resolution: float, split: int) -> CellIndex:
-    if split > 1:
-        mask = mask.repeat(split, axis=0).repeat(split, axis=1)
-    return CellIndex(mask, resolution / split)
+def _split(mask: npt.NDArray[np.bool_], split: int) -> npt.NDArray[np.bool_]:
+    return mask if split == 1 else mask.repeat(split, axis=0).repeat(split, axis=1)

@@ -1,0 +1,37 @@
+"""`Rays`: what a scan says about free space, in the frame of the robot."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ial.contractors.boxes import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Rays:
+    """Beams as segments in which nothing stands.
+
+    Parameters
+    ----------
+    origin
+        Position of the laser in the base frame (m), float64 of shape (2,).
+    angles, turns
+        Direction of each ray in the base frame, plus or minus its turn (rad), float64 of shape (n,). Rounding is included.
+    lengths
+        How far nothing stands (m), float64 of shape (n,); rounded down.
+    beams
+        The number of the beam, among those of `Beams`, that ended in the same reading; −1 for one without return. int64 of shape (n,).
+    margin_m
+        A ray is blocked only if all its neighbours within this distance are.
+    """
+
+    origin: FloatArray
+    angles: FloatArray
+    turns: FloatArray
+    lengths: FloatArray
+    beams: npt.NDArray[np.int64]
+    margin_m: float
+
+    def __len__(self) -> int:
+        return len(self.angles)
