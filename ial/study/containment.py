@@ -12,7 +12,7 @@ from ial.lidar.beams import scan_beams
 from ial.lidar.estimate import Estimate
 from ial.lidar.localizer import Localizer
 from ial.pose import Pose
-from ial.study.good_beams import good_beams
+from ial.study.good_beams import bad_beams
 
 TruthFrame = Literal["base", "laser"]
 
@@ -90,7 +90,7 @@ class Containment:
         """Return which assumptions the reference pose breaks at a scan, among beams, motion and domain."""
         config = self._localizer.config
         beams = scan_beams(step.scan, config)
-        bad = len(beams) - int(good_beams(beams, in_grid, self._localizer.grid, config.bounds.map_error_m).sum())
+        bad = bad_beams(beams, in_grid, self._localizer.grid, config.bounds.map_error_m)
         broken = ["beams"] if bad > allowed else []
         previous = None if self._fresh else self._previous
         if previous is not None and step.motion is not None and not step.motion.contains(previous.inverse() @ pose):

@@ -12,6 +12,7 @@ from ial.contractors.kernels import kernel
 from ial.lidar.beams import Beams
 from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
 from ial.pose import Pose
+from ial.study.blocked_rays import blocked_rays
 
 
 @kernel
@@ -91,6 +92,16 @@ def _good(ends, directions, errors, x, y, theta, distance, resolution, occupied,
                 break
 
 
+def bad_beams(beams: Beams, pose: Pose, grid: OccupancyGrid, map_error_m: float) -> int:
+    """Return how many beams are bad at a pose of the base in the grid's frame: those that end nowhere, and those that are blocked."""
+    bad = ~good_beams(beams, pose, grid, map_error_m)
+    if beams.rays is None:
+        return int(bad.sum())
+    numbers = beams.rays.beams[blocked_rays(beams.rays, pose, grid)]
+    bad[numbers[numbers >= 0]] = True
+    return int(bad.sum() + (numbers < 0).sum())
+
+
 def good_beams(beams: Beams, pose: Pose, grid: OccupancyGrid, map_error_m: float) -> np.ndarray:
     """Return which beams are good at a pose of the base in the grid's frame, bool of shape (n,).
 
@@ -98,7 +109,7 @@ def good_beams(beams: Beams, pose: Pose, grid: OccupancyGrid, map_error_m: float
     is scanned by segments along the beam, a tenth of a cell apart; with a bearing error a beam that is good by less than that may be
     counted as bad, never the other way round.
     """
-    good = np.zeros(len(beams), dtype=np.bool_)
+    good = np.zeros(len(beams.ends), dtype=np.bool_)
     occupied = grid.mask(OCCUPIED)
     _good(beams.ends, beams.directions, beams.errors, pose.x, pose.y, pose.theta, map_error_m, grid.resolution, occupied, good)
     return good
