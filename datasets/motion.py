@@ -160,7 +160,7 @@ class ErrorBound:
 class MotionBounds:
     """How far one recorded odometry step may be from the true motion.
 
-    The defaults hold for 96 to 99 % of the recorded steps of three robots whose corrected trajectories are known (Intel, Freiburg 079,
+    The defaults hold for 98 to 99.6 % of the recorded steps of three robots whose corrected trajectories are known (Intel, Freiburg 079,
     ACES), one of them with poor odometry.
 
     Parameters
@@ -171,8 +171,8 @@ class MotionBounds:
         Bound of dtheta, radians.
     """
 
-    translation: ErrorBound = field(default_factory=lambda: ErrorBound(0.10, 0.10, 0.10))
-    rotation: ErrorBound = field(default_factory=lambda: ErrorBound(0.06, 0.12, 0.20))
+    translation: ErrorBound = field(default_factory=lambda: ErrorBound(0.12, 0.12, 0.12))
+    rotation: ErrorBound = field(default_factory=lambda: ErrorBound(0.08, 0.15, 0.25))
 
     def enclose(self, delta: Motion | Pose) -> Motion:
         """Return the box of all true motions, given one recorded odometry step.

@@ -28,9 +28,9 @@ class Bounds:
         Error of the odometry between two scans.
     """
 
-    range_error_m: float = 0.05
-    bearing_error_rad: float = 0.0
-    map_error_m: float = 0.05
+    range_error_m: float = 0.03
+    bearing_error_rad: float = 0.005
+    map_error_m: float = 0.04
     motion: MotionBounds = field(default_factory=MotionBounds)
 
     def __post_init__(self) -> None:
@@ -57,9 +57,9 @@ class FreeSpace:
         Beams without return say that nothing stands within this distance, or within the sensor's range if that is less; 0 to ignore them.
     """
 
-    use: bool = False
-    margin_m: float = 0.05
-    max_rays: int = 90
+    use: bool = True
+    margin_m: float = 0.1
+    max_rays: int = 60
     no_return_m: float = 0.0
 
     def __post_init__(self) -> None:
@@ -142,10 +142,10 @@ class LocalizerConfig:
     """
 
     bounds: Bounds = field(default_factory=Bounds)
-    outliers: Outliers = 0.12
-    outlier_margin: int | float = 0.05
-    max_outliers: int | float = 0.35
-    max_jump: int | float = 0.2
+    outliers: Outliers = "auto"
+    outlier_margin: int | float = 0.06
+    max_outliers: int | float = 0.3
+    max_jump: int | float = 0.12
     free_space: FreeSpace = field(default_factory=FreeSpace)
     precision: Precision = field(default_factory=Precision)
     max_boxes: int = 4_000_000
