@@ -156,7 +156,8 @@ def main() -> None:
     report.say(f"Embedded sample: {verdict(sample_end())}.\n")
     if "IAL_DATA" in os.environ:
         head = (
-            "recording|scans|contained|contained in hull|assumptions hold|contained when they hold|broken|one hypothesis|half-widths|status|"
+            "recording|scans|contained|contained in hull|assumptions hold|contained when they hold|broken|one hypothesis|"
+            "half-widths|status|"
             "median error, m|ms a scan, median|s in all|limited"
         )
         report.table(head.split("|"), (measure(run) for run in RUNS if chosen.only in run.name))

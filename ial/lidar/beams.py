@@ -1,6 +1,7 @@
 """`Beams`: the evidence of one scan, in the frame of the robot."""
 
 import dataclasses
+import functools
 import math
 from dataclasses import dataclass
 
@@ -8,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.boxes import FloatArray
-from ial.datasets.scan import BeamClass, LaserScan
+from ial.datasets.scan import BeamClass, LaserScan, Mounting
 from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
 from ial.lidar.rays import Rays
 
@@ -77,9 +78,9 @@ def select_beams(scan: LaserScan, bounds: Bounds, outliers: int | float, max_bea
     """
     classes = scan.classes()
     used = _spread(np.flatnonzero(classes == BeamClass.HIT), max_beams)
-    angle, turn = _directions(scan, bounds.bearing_error_rad)
+    angle, turn, units = _directions(len(scan), scan.angle_min, scan.angle_increment, scan.mounting, bounds.bearing_error_rad)
     reading = scan.ranges[used].astype(np.float64)
-    directions = np.stack([np.cos(angle[used]), np.sin(angle[used])], axis=1)
+    directions = units[used]
     ends = np.array([scan.mounting.x, scan.mounting.y]) + reading[:, None] * directions
 
     radial = bounds.range_error_m + scan.range_slack()[used]
@@ -105,11 +106,15 @@ def _spread(rows: npt.NDArray[np.intp], most: int) -> npt.NDArray[np.intp]:
     return rows if len(rows) <= most else rows[np.arange(most) * len(rows) // most]
 
 
-def _directions(scan: LaserScan, bearing_error: float) -> tuple[FloatArray, FloatArray]:
-    """Return the direction of each beam in the base frame, and by how much it may be wrong (rad)."""
-    lower, upper = scan.bearings()
-    angle = scan.mounting.yaw + 0.5 * (lower + upper)
-    return angle, bearing_error + 0.5 * (upper - lower) + _angle_rounding(angle)
+@functools.lru_cache(maxsize=16)  # most scans of a lidar are alike in this
+def _directions(
+    count: int, angle_min: float, increment: float, mounting: Mounting, bearing_error: float
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the direction of each beam in the base frame, by how much it may be wrong (rad), and the unit vector that points there."""
+    lower, upper = LaserScan(0, np.ones(count, np.float32), angle_min, increment, mounting=mounting).bearings()
+    angle = mounting.yaw + 0.5 * (lower + upper)
+    turn = bearing_error + 0.5 * (upper - lower) + _angle_rounding(angle)
+    return angle, turn, np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
 def _number(share: int | float, beams: int) -> int:

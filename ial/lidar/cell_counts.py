@@ -4,6 +4,9 @@ A cell is divided into parts, as wide as a cell of the map and half a layer of h
 rectangles of end points of neighbouring parts are neighbours in the map, a cell apart, so eight of them are looked up together.
 """
 
+import functools
+import math
+
 import numpy as np
 import numpy.typing as npt
 
@@ -20,7 +23,8 @@ LARGEST_COUNT = 1 << 14
 
 _SEGMENT = BORDER // LANES  # groups of lanes in one segment: what a table's border allows
 _NEVER = 1 << 20  # more than any number of beams: a part outside the domain
-_BEAMS_PER_CHECK = 16
+_BEAMS_PER_CHECK = 8
+_GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
 @kernel
@@ -53,8 +57,11 @@ def _add_empty(flat, stride, limits, places, rows, first, groups, counts, at):  
 
 @kernel
 def _segments(words, row0, column0, parts, segments):  # type: ignore[no-untyped-def]
-    """List the runs of parts that hold the set cells of a tile, as rows (table row, first column, groups of lanes); return how many."""
-    found = 0
+    """List the runs of parts that hold the set cells of a tile; return how many.
+
+    A row holds the table row, the first column, the number of groups of lanes, and the place of the first count.
+    """
+    found = at_count = 0
     for y in range(TILE_ROWS):
         word = words[y]
         if word == np.uint64(0):
@@ -72,60 +79,72 @@ def _segments(words, row0, column0, parts, segments):  # type: ignore[no-untyped
                 segments[found, 0] = row0 + y * parts + part
                 segments[found, 1] = column0 + at
                 segments[found, 2] = groups
+                segments[found, 3] = at_count
+                at_count += groups * LANES
                 found += 1
                 at += groups * LANES
     return found
 
 
 @kernel
+def _trim(segments, found, most, counts):  # type: ignore[no-untyped-def]
+    """Take the groups without a promising part off both ends of the segments; return whether any group is left."""
+    left = False
+    for k in range(found):
+        first, groups, at = segments[k, 1], segments[k, 2], segments[k, 3]
+        while groups > 0 and not _promising(counts, at, most):
+            first += LANES
+            at += LANES
+            groups -= 1
+        while groups > 0 and not _promising(counts, at + (groups - 1) * LANES, most):
+            groups -= 1
+        segments[k, 1], segments[k, 2], segments[k, 3] = first, groups, at
+        left = left or groups > 0
+    return left
+
+
+@kernel
+def _promising(counts, at, most):  # type: ignore[no-untyped-def]
+    smallest = counts[at]
+    for lane in range(1, LANES):
+        smallest = min(smallest, counts[at + lane])
+    return smallest <= most
+
+
+@kernel
 def _count_tile(segments, found, row0, column0, parts, places, most, tables, counts, least):  # type: ignore[no-untyped-def]
-    """Lower `least` to the smallest count among the parts of each cell of a tile, for one interval of headings."""
+    """Lower `least` to the smallest count among the parts of each cell of a tile, for one interval of headings.
+
+    The segments are trimmed; counts above `most` are not finished.
+    """
     flat, domain, stride, limits = tables
     beams = len(places)
     around = np.array([-1, -1, 2, 2])
-    at = 0
     for k in range(found):
-        row, first, groups = segments[k]
-        for i in range(groups * LANES):
-            counts[at + i] = 0
+        row, first, groups, at = segments[k]
+        for i in range(at, at + groups * LANES):
+            counts[i] = 0
         _add_empty(domain, stride, limits, around, row, first, groups, counts, at)
-        for i in range(groups * LANES):
-            counts[at + i] *= _NEVER
-        at += groups * LANES
-    alive = found
+        for i in range(at, at + groups * LANES):
+            counts[i] *= _NEVER
     start = 0
-    while start < beams and alive:
+    left = _trim(segments, found, most, counts)
+    while start < beams and left:
         stop = min(start + _BEAMS_PER_CHECK, beams)
         for i in range(start, stop):
-            at = 0
             for k in range(found):
-                row, first, groups = segments[k]
+                row, first, groups, at = segments[k]
                 if groups > 0:
                     _add_empty(flat, stride, limits, places[i], row, first, groups, counts, at)
-                at += abs(groups) * LANES
         start = stop
-        at = 0
-        for k in range(found):
-            groups = segments[k, 2]
-            if groups > 0:
-                smallest = counts[at]
-                for i in range(groups * LANES):
-                    smallest = min(smallest, counts[at + i])
-                if smallest > most:
-                    segments[k, 2] = -groups  # no part of the segment is left
-                    alive -= 1
-            at += abs(groups) * LANES
-    at = 0
+        left = _trim(segments, found, most, counts)
     for k in range(found):
-        row, first, groups = segments[k]
-        if groups > 0:
-            y = (row - row0) // parts
-            for i in range(groups * LANES):
-                x = (first - column0 + i) // parts
-                if x < TILE_COLUMNS and counts[at + i] < least[y, x]:
-                    least[y, x] = counts[at + i]
-        segments[k, 2] = abs(groups)
-        at += abs(groups) * LANES
+        row, first, groups, at = segments[k]
+        y = (row - row0) // parts
+        for i in range(groups * LANES):
+            x = (first - column0 + i) // parts
+            if x < TILE_COLUMNS and counts[at + i] < least[y, x]:
+                least[y, x] = counts[at + i]
 
 
 @kernel
@@ -140,7 +159,7 @@ def _count(start, stop, keys, words, edges, parts, evidence, most, map_error, gr
     bounds = np.empty((len(ends), 4))
     places = np.empty((2, len(ends), 4), dtype=np.int64)
     longest = parts * (TILE_COLUMNS * parts // (_SEGMENT * LANES) + 1) * TILE_ROWS
-    segments = np.empty((longest, 3), dtype=np.int64)
+    segments = np.empty((longest, 4), dtype=np.int64)
     counts = np.empty(TILE_ROWS * parts * (TILE_COLUMNS * parts + LANES), dtype=np.int32)
     layer = -1
     for tile in range(start, stop):
@@ -152,9 +171,9 @@ def _count(start, stop, keys, words, edges, parts, evidence, most, map_error, gr
                 )
                 _place(bounds, drift, places[half])
         row0, column0 = keys[tile, 1] * TILE_ROWS * parts, keys[tile, 2] * TILE_COLUMNS * parts
-        found = _segments(words[tile], row0, column0, parts, segments)
         least[tile, :, :] = LARGEST_COUNT
         for half in range(2):
+            found = _segments(words[tile], row0, column0, parts, segments)
             _count_tile(segments, found, row0, column0, parts, places[half], most, tables, counts, least[tile])
         for y in range(TILE_ROWS):
             word = words[tile, y]
@@ -163,6 +182,12 @@ def _count(start, stop, keys, words, edges, parts, evidence, most, map_error, gr
                     if least[tile, y, x] > most:
                         word &= ~(np.uint64(1) << np.uint64(x))
             kept[tile, y] = word
+
+
+@functools.lru_cache(maxsize=16)
+def _spread_order(beams: int) -> npt.NDArray[np.intp]:
+    """Return an order in which the first few beams look into all directions: they tell most poses apart."""
+    return np.argsort(np.arange(beams) * _GOLDEN % 1.0, kind="stable")
 
 
 def count_cells(
@@ -196,7 +221,8 @@ def count_cells(
     rows, columns = occupied.table.shape
     # A part is a little wider than a cell, since its width has 24 bits: so much further right, at most, do its last columns lie.
     drift = (max(rows, columns) + TILE_COLUMNS * lattice.parts) * (lattice.part_m / occupied.resolution - 1.0) + MARGIN
-    evidence = (beams.ends, beams.directions, beams.errors)
+    order = _spread_order(len(beams.ends))
+    evidence = (beams.ends[order], beams.directions[order], beams.errors[order])
     grid = (occupied.resolution, drift, occupied.bordered, domain.bordered)
     edges = layer_edges(2 * lattice.layers)
     run(_count, len(tiles.words), tiles.keys, tiles.words, edges, lattice.parts, evidence, most, map_error_m, grid, kept, least, minimum=4)

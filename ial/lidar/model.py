@@ -115,7 +115,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         return _allowing(reading, states.outliers, lambda most: self._tried(tiles, moved, most, 0, deadline))
 
     def contract(self, states: PoseSet, reading: Beams) -> PoseSet:
-        """Return the poses that a scan allows. While both confirmed and carried poses survive, they stay apart."""
+        """Return the poses that a scan allows. Confirmed and carried ones stay apart while both survive; what is both is confirmed."""
         if not reading.informative:
             return states
         return _allowing(reading, states.outliers, lambda most: self._contracted(states, most))
@@ -126,7 +126,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
             return carried
         if not len(carried):
             return confirmed
-        return unite(confirmed, carried)
+        return unite(confirmed, carried.without(confirmed.boxes))
 
     def _paved(self, boxes: Boxes, reading: Beams) -> PoseSet:
         if not len(boxes):

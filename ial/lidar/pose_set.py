@@ -47,6 +47,11 @@ class PoseSet:
     def __len__(self) -> int:
         return len(self.boxes)
 
+    def without(self, boxes: Boxes) -> "PoseSet":
+        """Return the set without those of its boxes that are among others, bit for bit."""
+        rows = ~np.isin(_names(self.boxes), _names(boxes))
+        return PoseSet(self.boxes[rows], self.carried[rows], self.limited, self.nodes, self.bad[rows], self.outliers)
+
     def within(self, outliers: int) -> "PoseSet":
         """Return the boxes that may hold a pose from which at most so many beams are bad."""
         rows = self.bad <= outliers
@@ -58,6 +63,12 @@ class PoseSet:
         at = np.array([pose.x, pose.y])
         rows = np.flatnonzero(((lower[:, :2] <= at) & (at <= upper[:, :2])).all(axis=1))
         return any(contains_angle(lower[row, 2], upper[row, 2], pose.theta) for row in rows)
+
+
+def _names(boxes: Boxes) -> npt.NDArray[np.void]:
+    """Return the bits of each box as one value, shape (n,)."""
+    bounds = np.hstack([boxes.lower, boxes.upper]) + 0.0  # -0.0 is 0.0
+    return np.ascontiguousarray(bounds).view(f"V{bounds.itemsize * bounds.shape[1]}").reshape(-1)
 
 
 def unite(confirmed: PoseSet, carried: PoseSet) -> PoseSet:

@@ -10,8 +10,8 @@ from ial.contractors.boxes import Boxes
 from ial.datasets.recording import Step
 from ial.datasets.sample import sample_grid, sample_recording
 from ial.datasets.scan import LaserScan, Mounting
-from ial.lidar.estimate import Estimate, find_hypotheses
 from ial.lidar.config import Bounds
+from ial.lidar.estimate import Estimate, find_hypotheses
 from ial.lidar.localizer import Localizer
 from ial.lidar.pose_set import PoseSet
 from ial.lidar.run import localize
