@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from ial.maps.map_warning import MapWarning
     from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid, check_usable
     from ial.maps.ray_casting import cast_rays
+    from ial.maps.symmetry import symmetries
 
 __all__ = [
     "FREE",
@@ -28,6 +29,7 @@ __all__ = [
     "load_map",
     "read_map",
     "read_map_topic",
+    "symmetries",
     "write_map",
 ]
 
@@ -40,6 +42,7 @@ _FILES = {
     "map_warning": ("MapWarning",),
     "occupancy_grid": ("FREE", "OCCUPIED", "UNKNOWN", "OccupancyGrid", "check_usable"),
     "ray_casting": ("cast_rays",),
+    "symmetry": ("symmetries",),
 }
 
 

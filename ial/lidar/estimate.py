@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.paving.clusters import cluster
@@ -68,7 +69,8 @@ class Estimate:
         Time of the scan, nanoseconds.
     status
         `localized`: one hypothesis, not larger than the configured size. `lost`: this scan fitted nowhere in the prediction and was
-        searched over the whole map. `blind`: it fitted nowhere at all. `ambiguous`: everything else.
+        searched over the whole map. `blind`: it fitted nowhere at all. `symmetric`: all hypotheses are images of each other under a
+        symmetry of the map. `ambiguous`: everything else.
     hypotheses
         The connected sets of poses, the largest volume first.
     pose
@@ -134,7 +136,33 @@ def radius(poses: PoseSet, pose: Pose) -> float:
     return float(np.hypot(x, y).max() * _FARTHER)
 
 
-def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: bool, found: bool) -> Status:
+def are_images(hypotheses: tuple[Hypothesis, ...], symmetries: tuple[Pose, ...], widths: npt.NDArray[np.float64]) -> bool:
+    """Return whether hypotheses are images of each other: those of the first under all symmetries of the map, and no others.
+
+    Parameters
+    ----------
+    hypotheses
+        Two or more.
+    symmetries
+        Of the map, in the map frame.
+    widths
+        Of a cell of the answer along x, y and θ. Cells do not map onto cells, so middles may differ by two of them.
+    """
+    if not 1 < len(hypotheses) <= 1 + len(symmetries):
+        return False
+    first = hypotheses[0].centre
+    images = [first, *(symmetry @ first for symmetry in symmetries)]
+    return all(sum(_near(image, each.centre, 2.0 * widths) for each in hypotheses) == 1 for image in images) and all(
+        any(_near(image, each.centre, 2.0 * widths) for image in images) for each in hypotheses
+    )
+
+
+def _near(one: Pose, other: Pose, most: npt.NDArray[np.float64]) -> bool:
+    difference = (one.x - other.x, one.y - other.y, wrap(one.theta - other.theta))
+    return bool((np.abs(difference) <= most).all())
+
+
+def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: bool, found: bool, symmetric: bool = False) -> Status:
     """Return the status word for a set of hypotheses.
 
     Parameters
@@ -147,6 +175,8 @@ def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: 
         Whether the scan fitted nowhere in the prediction.
     found
         Whether it fitted anywhere.
+    symmetric
+        Whether the hypotheses are images of each other under a symmetry of the map.
     """
     if rejected:
         return "lost" if found else "blind"
@@ -154,4 +184,4 @@ def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: 
         position, heading = hypotheses[0].half_widths
         if position <= size.position_m and heading <= size.heading_rad:
             return "localized"
-    return "ambiguous"
+    return "symmetric" if symmetric else "ambiguous"

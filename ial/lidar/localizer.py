@@ -8,7 +8,7 @@ from ial.datasets.motion import Motion
 from ial.datasets.scan import LaserScan
 from ial.lidar.beams import Beams, scan_beams
 from ial.lidar.config import Bounds, LocalizerConfig, Outliers
-from ial.lidar.estimate import Estimate, find_hypotheses, judge, radius
+from ial.lidar.estimate import Estimate, are_images, find_hypotheses, judge, radius
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet
 from ial.maps.occupancy_grid import OccupancyGrid
@@ -68,6 +68,7 @@ class Localizer:
         self.config = config
         self.grid = grid
         self.model = LidarModel(grid, config)
+        self._symmetries = self.model.symmetries()
         self._start = self.model.universe() if initial is None else self.model.within(initial)
         self.reset()
 
@@ -107,7 +108,13 @@ class Localizer:
         rejection = tracker.update(motion, beams)
         poses = tracker.states
         hypotheses = find_hypotheses(poses, self.grid)
-        status = judge(hypotheses, self.config.localized_size, rejected=rejection is not None, found=not bool(poses.carried.all()))
+        status = judge(
+            hypotheses,
+            self.config.localized_size,
+            rejected=rejection is not None,
+            found=not bool(poses.carried.all()),
+            symmetric=are_images(hypotheses, self._symmetries, self.model.lattice.widths),
+        )
         pose = hypotheses[0].centre if status == "localized" else None
         return Estimate(
             stamp_ns=scan.stamp_ns,

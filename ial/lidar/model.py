@@ -24,6 +24,7 @@ from ial.lidar.prediction import move
 from ial.lidar.tiles import Tiles
 from ial.maps.cell_index import CellIndex
 from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid, check_usable
+from ial.maps.symmetry import symmetries
 from ial.membership import Model
 from ial.pose import Pose
 
@@ -52,7 +53,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
     """
 
     def __init__(self, grid: OccupancyGrid, config: LocalizerConfig) -> None:
-        allowed = (FREE,) if config.domain == "free" else (FREE, UNKNOWN)
+        allowed = self._allowed = (FREE,) if config.domain == "free" else (FREE, UNKNOWN)
         check_usable(grid, allowed)
         self.grid = grid
         self.config = config
@@ -177,6 +178,12 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         bad = count_blocked(cells, bad, reading, self.lattice.parts, self.occupied, self.bits, self.config.bounds.map_error_m)
         rows = bad <= reading.outliers
         return cells[rows], bad[rows]
+
+    def symmetries(self) -> tuple[Pose, ...]:
+        """Return the rotations of the map frame after which no scan can tell the difference."""
+        origin = self.grid.origin
+        turns = symmetries(self.grid.mask(OCCUPIED), self.grid.mask(*self._allowed), resolution=self.grid.resolution)
+        return tuple(origin @ turn @ origin.inverse() for turn in turns)
 
     def in_domain(self, pose: Pose) -> bool:
         """Return whether a position in the grid's frame lies in a cell of the domain."""
