@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ial.datasets.conversion import convert as convert
     from ial.datasets.info import RecordingInfo as RecordingInfo
+    from ial.datasets.kidnapping import Kidnapping as Kidnapping
+    from ial.datasets.kidnapping import kidnap as kidnap
     from ial.datasets.motion import ErrorBound as ErrorBound
     from ial.datasets.motion import Motion as Motion
     from ial.datasets.motion import MotionBounds as MotionBounds
@@ -38,6 +40,7 @@ else:
         {
             "conversion": ("convert",),
             "info": ("RecordingInfo",),
+            "kidnapping": ("Kidnapping", "kidnap"),
             "motion": ("ErrorBound", "Motion", "MotionBounds"),
             "odometry": ("Odometry",),
             "opening": ("open_recording",),

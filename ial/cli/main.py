@@ -6,7 +6,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
-from ial.cli import convert, info, localize, map_info, simulate
+from ial.cli import convert, info, kidnap, localize, map_info, simulate
 from ial.cli.terminal import remark, remarks, say
 from ial.errors import IalError
 
@@ -41,6 +41,7 @@ maps = typer.Typer(no_args_is_help=True, help="Look at a map.")
 app.command("localize")(localize.localize)
 app.command("info")(info.info)
 app.command("convert")(convert.convert)
+app.command("kidnap")(kidnap.kidnap)
 app.command("simulate")(simulate.simulate)
 maps.command("info")(map_info.map_info)
 app.add_typer(maps, name="map")
