@@ -19,8 +19,8 @@ from ial.study.containment import Containment
 
 ABOUT = """\
 Odd scans, maps of the even ones, each scan by itself over the whole map, without any prior; about 90 scans of each recording. The bounds
-are ±0.05 m (range) and ±0.05 m (map), with `auto` the default ones. *Assumptions*: the share of scans at which the reference has no more bad or
-blocked beams than allowed. *Unique*: one hypothesis."""
+are ±0.05 m (range) and ±0.05 m (map), with `auto` the default ones. *Assumptions*: the share of scans at which the reference has no more
+bad or blocked beams than allowed. *Unique*: one hypothesis."""
 LOGS = {
     "intel_lab": ("intel-corrected.log.gz", 5),
     "freiburg_079": ("freiburg-079-corrected.log.gz", 26),
