@@ -49,7 +49,8 @@ def kidnap(
     Raises
     ------
     RecordingError
-        If a jump names a scan that is not there or not reached, or if it leads to where the recording would go on anyway.
+        If a jump names a scan that is not there or not reached, if it leads to where the recording would go on anyway, or if
+        no scan has a reference.
     """
     readings = list(recording.readings())
     places = {reading.index: place for place, reading in enumerate(readings)}
@@ -70,6 +71,8 @@ def kidnap(
         if pose is not None:
             stamps.append(stamp)
             poses.append((pose.x, pose.y, pose.theta))
+    if truth is not None and not poses:
+        raise RecordingError(f"no scan of {recording.name} has a reference: their stamps do not meet; check that it is the right file")
     reference = None if truth is None else Trajectory(np.array(stamps, dtype=np.int64), np.array(poses).reshape(-1, 3))
     return InMemoryRecording(f"{recording.name}, kidnapped", moved), reference
 

@@ -35,13 +35,16 @@ def kidnap(
     jumps = [_parsed(text) for text in at]
     if target.exists() and recording.exists() and target.samefile(recording):
         raise OutputError(f"{target}: this is the recording itself; give another file to write to")
+    beside = target.with_suffix(".tum")
+    if truth is not None and truth.exists() and beside.exists() and beside.samefile(truth):
+        raise OutputError(f"{beside}: this is the reference itself; give OUT another name, or the new reference would replace it")
     reference = None if truth is None else read_tum(truth)
     kidnapped, moved = kidnap(open_recording(recording, scan_topic, odom_topic, pose_of(laser_pose)), jumps, reference)
     count = convert(kidnapped, target)
     say(f"{count} scans written to {target}, {len(jumps)} {'kidnapping' if len(jumps) == 1 else 'kidnappings'}")
     if moved is not None:
-        write_tum(moved, target.with_suffix(".tum"))
-        say(f"{len(moved)} reference poses written to {target.with_suffix('.tum')}")
+        write_tum(moved, beside)
+        say(f"{len(moved)} reference poses written to {beside}")
 
 
 def _parsed(text: str) -> "Kidnapping":

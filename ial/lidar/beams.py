@@ -65,7 +65,9 @@ def scan_beams(scan: LaserScan, config: LocalizerConfig) -> Beams:
     if not automatic:
         return beams
     margin, jump = (_number(share, len(beams)) for share in (config.outlier_margin, config.max_jump))
-    return dataclasses.replace(beams, margin=margin, jump=jump)
+    # With as many outliers as beams a scan would say nothing; what it needs is always fewer.
+    most = max(0, min(beams.outliers, len(beams) - 1))
+    return dataclasses.replace(beams, outliers=most, margin=margin, jump=jump)
 
 
 def select_beams(scan: LaserScan, bounds: Bounds, outliers: int | float, max_beams: int, free_space: FreeSpace | None = None) -> Beams:

@@ -191,9 +191,9 @@ def _spread_order(beams: int) -> npt.NDArray[np.intp]:
 
 
 def count_cells(
-    tiles: Tiles, lattice: Lattice, beams: Beams, most: int, occupied: CellIndex, domain: CellIndex, map_error_m: float
+    tiles: Tiles, lattice: Lattice, beams: Beams, occupied: CellIndex, domain: CellIndex, map_error_m: float
 ) -> tuple[WordArray, npt.NDArray[np.int16]]:
-    """Return which cells may hold a pose of the domain from which at most `most` beams are bad, and how many are bad at least.
+    """Return which cells may hold a pose of the domain from which not too many beams are bad, and how many are at least.
 
     Parameters
     ----------
@@ -202,9 +202,7 @@ def count_cells(
     lattice
         The lattice, whose parts are as wide as the cells of the map.
     beams
-        The evidence of the scan.
-    most
-        How many beams may be bad.
+        The evidence of the scan, and how many of its beams may be bad.
     occupied, domain
         Which cells beams may end at, and in which the robot may be.
     map_error_m
@@ -225,5 +223,19 @@ def count_cells(
     evidence = (beams.ends[order], beams.directions[order], beams.errors[order])
     grid = (occupied.resolution, drift, occupied.bordered, domain.bordered)
     edges = layer_edges(2 * lattice.layers)
-    run(_count, len(tiles.words), tiles.keys, tiles.words, edges, lattice.parts, evidence, most, map_error_m, grid, kept, least, minimum=4)
+    run(
+        _count,
+        len(tiles.words),
+        tiles.keys,
+        tiles.words,
+        edges,
+        lattice.parts,
+        evidence,
+        beams.outliers,
+        map_error_m,
+        grid,
+        kept,
+        least,
+        minimum=4,
+    )
     return kept, least

@@ -104,8 +104,19 @@ class Estimate:
     radius_m: float | None = None
 
 
-def find_hypotheses(poses: PoseSet, grid: OccupancyGrid) -> tuple[Hypothesis, ...]:
-    """Return the connected components of a set of poses, the largest volume first, in the map frame."""
+def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True) -> tuple[Hypothesis, ...]:
+    """Return the connected components of a set of poses, the largest volume first, in the map frame.
+
+    Parameters
+    ----------
+    poses
+        The set.
+    grid
+        The map.
+    counted
+        Whether the last scan has told how many of its beams are bad; one that excludes nothing has not.
+    """
+    counted = counted and not poses.limited
     clusters = cluster(poses.boxes, circular=(2,))
     in_map = grid.boxes_to_map(poses.boxes)
     volumes = np.maximum(poses.boxes.width(), 0.0).prod(axis=1)
@@ -124,16 +135,19 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid) -> tuple[Hypothesis, ..
                 boxes=len(rows),
                 volume=float(volumes[rows].sum()),
                 prediction=bool(poses.carried[rows].all()),
-                spare_beams=None if poses.limited or poses.carried[rows].all() else poses.outliers - int(poses.bad[rows].min()),
+                spare_beams=poses.outliers - int(poses.bad[rows].min()) if counted and not poses.carried[rows].all() else None,
             )
         )
     return tuple(sorted(found, key=lambda each: -each.volume))
 
 
-def radius(poses: PoseSet, pose: Pose) -> float:
-    """Return a distance (m) from a pose, in the grid's frame, that no position of a set exceeds."""
-    x, y = np.maximum(np.abs(poses.boxes.lower[:, :2] - (pose.x, pose.y)), np.abs(poses.boxes.upper[:, :2] - (pose.x, pose.y))).T
-    return float(np.hypot(x, y).max() * _FARTHER)
+def radius(poses: PoseSet, pose: Pose, grid: OccupancyGrid) -> float:
+    """Return a distance (m) from a pose in the map frame that no position of a set exceeds."""
+    at = grid.pose_to_grid(pose)
+    x, y = np.maximum(np.abs(poses.boxes.lower[:, :2] - (at.x, at.y)), np.abs(poses.boxes.upper[:, :2] - (at.x, at.y))).T
+    # The pose was rounded twice between the frames, by units in the last place of the largest number that occurs.
+    largest = abs(pose.x) + abs(pose.y) + abs(grid.origin.x) + abs(grid.origin.y) + grid.width_m + grid.height_m
+    return float(np.hypot(x, y).max() * _FARTHER + 2.0**-46 * largest)
 
 
 def are_images(hypotheses: tuple[Hypothesis, ...], symmetries: tuple[Pose, ...], widths: npt.NDArray[np.float64]) -> bool:

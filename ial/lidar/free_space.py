@@ -26,6 +26,7 @@ from ial.maps.cell_index import BORDER, CellIndex
 
 _STEEPEST = 0.55  # a ray runs along an axis if its cosine with it is above this at both ends of its interval
 _CHUNK = 16  # columns that are passed at once where the strip is free
+_WIDEST_TURN = 0.5  # radians; a slope has bounds only where no pole of the tangent lies between
 _WIDEST = 64  # rows of a strip: the bits of a word
 _SLACK = 2.0**-40  # far above the rounding of a slope, and of an angle in radians
 
@@ -147,8 +148,11 @@ def blocked(box, laser, ray, margin, table, upwards, rightwards):  # type: ignor
     smallest = min(abs(a0), abs(a1))
     wide = margin / (smallest - _SLACK)
     first_slope, second_slope = b0 / abs(a0), b1 / abs(a1)
-    first = int(math.ceil(la_high + margin))
-    last = int(math.floor(la_low + length * (smallest - _SLACK) - margin)) - 1
+    # Outside of the map nothing stands, so the walk may begin and end at its edges, however long the ray is.
+    cells = table.shape[1] - 1 if along else table.shape[0] - 1
+    lowest, highest = (0, cells - 1) if sign > 0 else (-cells, -1)
+    first = max(int(math.ceil(la_high + margin)), lowest)
+    last = int(min(math.floor(la_low + length * (smallest - _SLACK) - margin) - 1.0, float(highest)))
     slope_low = min(first_slope, second_slope) - _SLACK
     slope_high = max(first_slope, second_slope) + _SLACK
     lines = upwards if along else rightwards
@@ -184,9 +188,11 @@ def _block_rows(start, stop, order, lower, upper, parts, hits, rays, grid, least
                 headings[i, 1], headings[i, 0] = sincos(theta_lower + angles[i] - turns[i] - _SLACK)
                 headings[i, 3], headings[i, 2] = sincos(theta_upper + angles[i] + turns[i] + _SLACK)
                 headings[i, 4] = lengths[i] / resolution - MARGIN
+                if theta_upper - theta_lower + 2.0 * turns[i] > _WIDEST_TURN:
+                    headings[i, :4] = 0.0  # along no axis: such a ray is never found to be blocked
         xl, yl = lower[row, 0] / resolution, lower[row, 1] / resolution
         xu, yu = upper[row, 0] / resolution, upper[row, 1] / resolution
-        if min(xl, yl) < -NEAR or max(xu, yu) > NEAR or theta_upper - theta_lower > 0.5:
+        if min(xl, yl) < -NEAR or max(xu, yu) > NEAR or theta_upper - theta_lower > _WIDEST_TURN:
             continue
         box = (xl - MARGIN, yl - MARGIN, xu + MARGIN, yu + MARGIN)
         barred[:] = False

@@ -107,7 +107,7 @@ class Localizer:
         beams = scan_beams(scan, self.config)
         rejection = tracker.update(motion, beams)
         poses = tracker.states
-        hypotheses = find_hypotheses(poses, self.grid)
+        hypotheses = find_hypotheses(poses, self.grid, counted=beams.informative)
         status = judge(
             hypotheses,
             self.config.localized_size,
@@ -124,7 +124,7 @@ class Localizer:
             poses=poses,
             beams=len(beams),
             outliers_allowed=poses.outliers if beams.informative else beams.outliers,
-            radius_m=None if pose is None else radius(poses, self.grid.pose_to_grid(pose)),
+            radius_m=None if pose is None else radius(poses, pose, self.grid),
             uninformative=not beams.informative,
             limited=poses.limited,
             elapsed_s=time.perf_counter() - begun,

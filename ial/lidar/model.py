@@ -88,7 +88,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         if motion is None:
             return states
         confirmed, carried = (self._laid_out(move(states.boxes[rows], motion)) for rows in (~states.carried, states.carried))
-        return unite(PoseSet(confirmed), PoseSet(carried))
+        return unite(PoseSet(confirmed, outliers=states.outliers), PoseSet(carried))
 
     def _laid_out(self, boxes: Boxes) -> Boxes:
         """Return the cells of the lattice that cover boxes, as far as they meet the domain."""
@@ -155,9 +155,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         while start < len(tiles.keys):
             portion = deadline.portion(min(_CHUNK, len(tiles.keys) - start))
             part = Tiles(tiles.keys[start : start + portion], tiles.words[start : start + portion])
-            words, least = count_cells(
-                part, self.lattice, reading, reading.outliers, self.occupied, self.domain, self.config.bounds.map_error_m
-            )
+            words, least = count_cells(part, self.lattice, reading, self.occupied, self.domain, self.config.bounds.map_error_m)
             left = Tiles(part.keys, words)
             total += len(left)
             if not portion or total > self.config.max_boxes:

@@ -44,41 +44,25 @@ class Tiles:
         edges
             Boundaries of the layers, float64.
         """
-        cells = len(self)
-        lower, upper = np.empty((cells, 3)), np.empty((cells, 3))
-        _cells_of(self.keys, self.words, edges, step, lower, upper)
-        return Boxes(lower, upper)
+        tile, y, x = self._places()
+        layer, row, column = self.keys[tile, 0], self.keys[tile, 1] * TILE_ROWS + y, self.keys[tile, 2] * TILE_COLUMNS + x
+        lower = np.stack([column * step, row * step, edges[layer]], axis=1)
+        return Boxes(lower, np.stack([(column + 1) * step, (row + 1) * step, edges[layer + 1]], axis=1))
 
     def values(self, cells: npt.NDArray[np.int16]) -> npt.NDArray[np.int16]:
         """Return the numbers of the cells of the set, in the order of `boxes`, from an array of shape (n, 16, 64)."""
-        found = np.empty(len(self), dtype=np.int16)
-        _values_of(self.words, cells, found)
-        return found
+        return cells[self._places()]
+
+    def _places(self) -> tuple[IntArray, IntArray, IntArray]:
+        """Return tile, row and column of each cell of the set, those counted within the tile."""
+        places = np.empty((3, len(self)), dtype=np.int64)
+        _list_places(self.words, places)
+        tile, row, column = places
+        return tile, row, column
 
 
 @kernel
-def _cells_of(keys, words, edges, step, lower, upper):  # type: ignore[no-untyped-def]
-    at = 0
-    for tile in range(len(keys)):
-        for y in range(TILE_ROWS):
-            word = words[tile, y]
-            if word == np.uint64(0):
-                continue
-            row = keys[tile, 1] * TILE_ROWS + y
-            for x in range(TILE_COLUMNS):
-                if (word >> np.uint64(x)) & np.uint64(1):
-                    column = keys[tile, 2] * TILE_COLUMNS + x
-                    lower[at, 0] = column * step
-                    upper[at, 0] = (column + 1) * step
-                    lower[at, 1] = row * step
-                    upper[at, 1] = (row + 1) * step
-                    lower[at, 2] = edges[keys[tile, 0]]
-                    upper[at, 2] = edges[keys[tile, 0] + 1]
-                    at += 1
-
-
-@kernel
-def _values_of(words, cells, found):  # type: ignore[no-untyped-def]
+def _list_places(words, places):  # type: ignore[no-untyped-def]
     at = 0
     for tile in range(len(words)):
         for y in range(TILE_ROWS):
@@ -87,7 +71,7 @@ def _values_of(words, cells, found):  # type: ignore[no-untyped-def]
                 continue
             for x in range(TILE_COLUMNS):
                 if (word >> np.uint64(x)) & np.uint64(1):
-                    found[at] = cells[tile, y, x]
+                    places[0, at], places[1, at], places[2, at] = tile, y, x
                     at += 1
 
 

@@ -21,3 +21,11 @@ def test_a_kidnapped_recording_and_its_reference_are_written(ial: Callable[..., 
 )
 def test_a_jump_that_makes_no_sense_is_refused(refused: Callable[..., str], sample: Path, at: str, message: str) -> None:
     assert message in refused("kidnap", sample, "carried.mcap", "--at", at)
+
+
+def test_the_reference_is_never_replaced(ial: Callable[..., Any], refused: Callable[..., str], sample: Path, tmp_path: Path) -> None:
+    ial("localize", "--out", "run")
+    truth = tmp_path / "run" / "trajectory.tum"
+    before = truth.read_bytes()
+    assert "this is the reference itself" in refused("kidnap", sample, truth.with_suffix(".mcap"), "--at", "10:25", "--truth", truth)
+    assert truth.read_bytes() == before

@@ -37,7 +37,7 @@ class Case:
 
     def count(self, most: int) -> tuple[Boxes, np.ndarray]:
         world = self.world
-        words, least = count_cells(self.tiles, self.lattice, world.beams(most), most, self.occupied, self.domain, world.bounds.map_error_m)
+        words, least = count_cells(self.tiles, self.lattice, world.beams(most), self.occupied, self.domain, world.bounds.map_error_m)
         left = type(self.tiles)(self.tiles.keys, words)
         return self.lattice.boxes(left), left.values(least)
 
@@ -98,7 +98,7 @@ def test_cells_outside_the_domain_are_dropped_on_any_number_of_threads(threads: 
     world = World.random(np.random.default_rng(0))
     set_threads(threads)
     try:
-        words, _ = count_cells(tiles, lattice, world.beams(0), 1000, occupied, CellIndex(domain, 0.05), 0.0)
+        words, _ = count_cells(tiles, lattice, world.beams(1000), occupied, CellIndex(domain, 0.05), 0.0)
     finally:
         set_threads(None)
     cells = lattice.boxes(type(tiles)(tiles.keys, words))

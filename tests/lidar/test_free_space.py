@@ -115,3 +115,20 @@ def test_blocked_beams_and_beams_without_return_count_once_each() -> None:
     assert len(hits) == 55
     assert 12 <= found <= 15  # ten behind a wall, bad once each although some end in a cell, and five that see through walls
     assert found - 5 == short  # beams without return that claim nothing beyond 5 cm are blocked nowhere
+
+
+def test_an_endless_ray_and_a_bearing_that_may_be_anything_are_bounded() -> None:
+    grid = floor_plan(8.0, 6.0, 0.05, 2)
+    mask = grid.mask(OCCUPIED)
+    index, bits = CellIndex(mask, 0.05), BitColumns(mask)
+    box = Boxes.of([(3.0, 3.05), (3.0, 3.05), (0.0, 0.01)])
+    far = LaserScan(0, np.array([3e38, 5.0], np.float32), 0.1, 1.0)
+    blind = np.zeros(1, np.int16)
+    beams = select_beams(far, Bounds(), 0, 180, FreeSpace())
+    assert count_blocked(box, blind, beams, 2, index, bits, 0.04)[0] >= 1
+    wall = np.zeros((200, 200), dtype=np.bool_)
+    wall[:, 5] = True  # on one side only: rays into most directions are free, although both ends of their interval point at it
+    open_side, seen = (CellIndex(wall, 0.05), BitColumns(wall)), Boxes.of([(1.0, 1.01), (5.0, 5.01), (0.0, 0.01)])
+    for bearing, error, count in ((0.0, 2.7, 0), (math.pi, 0.05, 1), (math.pi, 6.0, 0)):
+        beams = select_beams(LaserScan(0, np.array([50.0], np.float32), bearing, 1.0), Bounds(0.0, error, 50.0), 0, 180, FreeSpace())
+        assert count_blocked(seen, blind, beams, 2, *open_side, 50.0).tolist() == [count]
