@@ -11,10 +11,8 @@ from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 from ial.datasets.scan import LaserScan
 from ial.errors import ConfigError, RecordingError
-from ial.lidar.beams import select_beams
-from ial.lidar.config import Bounds
 from ial.maps.occupancy_grid import FREE, OccupancyGrid, check_usable
-from ial.particles.likelihood_field import BeamModel, LikelihoodField, score
+from ial.particles.likelihood_field import BeamModel, LikelihoodField, score, score_turned
 from ial.pose import Pose, wrap
 
 _ROUNDS = 5  # of refinement; each halves the step
@@ -57,14 +55,6 @@ class Match:
 
 
 @kernel
-def _turn(ends, heading, turned):  # type: ignore[no-untyped-def]
-    c, s = math.cos(heading), math.sin(heading)
-    for i in range(ends.shape[1]):
-        turned[0, i] = c * ends[0, i] - s * ends[1, i]
-        turned[1, i] = s * ends[0, i] + c * ends[1, i]
-
-
-@kernel
 def _score_lattice(start, stop, table, positions, turned, scores):  # type: ignore[no-untyped-def]
     """Score the positions start … stop with every heading.
 
@@ -80,7 +70,6 @@ def _score_lattice(start, stop, table, positions, turned, scores):  # type: igno
 @kernel
 def _refine(start, stop, table, poses, ends, steps, scores):  # type: ignore[no-untyped-def]
     """Move each pose (x, y, θ) to the best of its 26 neighbours until none is better; then halve the steps, and again."""
-    turned = np.empty((3, 2, ends.shape[1]), dtype=np.float32)
     cells = np.empty(ends.shape[1], dtype=np.int32)
     for row in range(start, stop):
         scores[row] = -np.inf
@@ -92,14 +81,12 @@ def _refine(start, stop, table, poses, ends, steps, scores):  # type: ignore[no-
             while better:
                 better = False
                 x, y, theta = poses[row]
-                for way in range(3):
-                    _turn(ends, theta + (way - 1) * turn, turned[way])
                 for k in range(27):
-                    at_x, at_y, way = x + (k % 3 - 1) * step, y + (k // 3 % 3 - 1) * step, k // 9
-                    found = score(table, np.float32(at_x), np.float32(at_y), turned[way], cells)
+                    at_x, at_y, heading = x + (k % 3 - 1) * step, y + (k // 3 % 3 - 1) * step, theta + (k // 9 - 1) * turn
+                    found = score_turned(table, np.float32(at_x), np.float32(at_y), heading, ends, cells)
                     if found > scores[row]:
                         scores[row] = found
-                        poses[row, 0], poses[row, 1], poses[row, 2] = at_x, at_y, theta + (way - 1) * turn
+                        poses[row, 0], poses[row, 1], poses[row, 2] = at_x, at_y, heading
                         better = True
 
 
@@ -166,7 +153,7 @@ class BruteForce:
         RecordingError
             If the scan has no usable beam.
         """
-        ends = select_beams(scan, Bounds(), 0, self.field.model.max_beams).ends.T / self.grid.resolution
+        ends = self.field.ends(scan)
         if not ends.size:
             raise RecordingError("the scan has no usable beam: all are NaN, too near, or without a return; choose another scan")
         poses = self._candidates(self._scores(ends))
@@ -178,7 +165,7 @@ class BruteForce:
         runner_up = self._scored(poses[others[0]], scores[others[0]]) if others else None
         return Match(self._scored(poses[best], scores[best]), runner_up, len(self._positions) * self.headings)
 
-    def _scores(self, ends: FloatArray) -> npt.NDArray[np.float32]:
+    def _scores(self, ends: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]:
         """Return the score of every pose of the lattice, shape (positions, headings)."""
         angles = self._turn * np.arange(self.headings)
         c, s = np.cos(angles)[:, None], np.sin(angles)[:, None]

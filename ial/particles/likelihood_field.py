@@ -2,12 +2,16 @@
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.kernels import kernel
+from ial.datasets.scan import LaserScan
 from ial.errors import ConfigError
+from ial.lidar.beams import select_beams
+from ial.lidar.config import Bounds
 from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
 
 
@@ -27,11 +31,14 @@ class BeamModel:
         Range over which the uniform part is spread, metres.
     max_beams
         How many beams of a scan are used at most.
+    laser_model_type
+        How beams go together: ``"likelihood_field_prob"`` multiplies their likelihoods, ``"likelihood_field"`` adds the cubes of them to 1,
+        which is nav2's default.
 
     Raises
     ------
     ConfigError
-        If a number is not positive and finite.
+        If a number is not positive and finite, or there is no such type.
     """
 
     z_hit: float = 0.5
@@ -40,21 +47,29 @@ class BeamModel:
     laser_likelihood_max_dist: float = 2.0
     laser_max_range: float = 100.0
     max_beams: int = 60
+    laser_model_type: Literal["likelihood_field", "likelihood_field_prob"] = "likelihood_field_prob"
 
     def __post_init__(self) -> None:
         for name in ("z_hit", "z_rand", "sigma_hit", "laser_likelihood_max_dist", "laser_max_range", "max_beams"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value > 0):
                 raise ConfigError(f"{name} is {value!r}; give a finite number above 0")
+        if self.laser_model_type not in ("likelihood_field", "likelihood_field_prob"):
+            raise ConfigError(f"laser_model_type is {self.laser_model_type!r}; give 'likelihood_field' or 'likelihood_field_prob'")
 
-    def log_likelihood(self, distance_m: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """Return log(z_hit · exp(−d² / 2σ²) + z_rand / laser_max_range) for distances to the nearest obstacle."""
+    def likelihood(self, distance_m: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return z_hit · exp(−d² / 2σ²) + z_rand / laser_max_range for distances to the nearest obstacle."""
         distance = np.minimum(np.asarray(distance_m, dtype=np.float64), self.laser_likelihood_max_dist)
-        return np.asarray(np.log(self.z_hit * np.exp(-0.5 * (distance / self.sigma_hit) ** 2) + self.z_rand / self.laser_max_range))
+        return np.asarray(self.z_hit * np.exp(-0.5 * (distance / self.sigma_hit) ** 2) + self.z_rand / self.laser_max_range)
+
+    def term(self, distance_m: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return what a beam adds to the score of a pose: the logarithm of its likelihood, or its cube."""
+        likelihood = self.likelihood(distance_m)
+        return np.asarray(np.log(likelihood) if self.laser_model_type == "likelihood_field_prob" else likelihood**3)
 
 
 class LikelihoodField:
-    """The log-likelihood of a beam that ends in each cell of a map.
+    """What a beam that ends in a cell says, for each cell of a map: `BeamModel.term`.
 
     Distances are those between centres of cells. Poses and points are in the grid's frame, in cells.
 
@@ -70,7 +85,7 @@ class LikelihoodField:
     table
         float32 of shape (rows + 2, columns + 2): the map with a border of one cell, which stands for everything outside.
 
-    Source: Thrun, Burgard and Fox, Probabilistic Robotics, 2005, table 6.3, with the logarithm of the product.
+    Source: Thrun, Burgard and Fox, Probabilistic Robotics, 2005, table 6.3.
     """
 
     def __init__(self, grid: OccupancyGrid, model: BeamModel) -> None:
@@ -79,13 +94,19 @@ class LikelihoodField:
         free = np.ascontiguousarray(~grid.mask(OCCUPIED)).view(np.uint8)
         distance = cv2.distanceTransform(free, cv2.DIST_L2, cv2.DIST_MASK_PRECISE) * np.float32(grid.resolution)
         self.model = model
-        outside = float(model.log_likelihood(model.laser_likelihood_max_dist))
-        self.table: npt.NDArray[np.float32] = np.pad(model.log_likelihood(distance).astype(np.float32), 1, constant_values=outside)
+        self.resolution = grid.resolution
+        outside = float(model.term(model.laser_likelihood_max_dist))
+        self.table: npt.NDArray[np.float32] = np.pad(model.term(distance).astype(np.float32), 1, constant_values=outside)
+
+    def ends(self, scan: LaserScan) -> npt.NDArray[np.float32]:
+        """Return where a scan's hits end relative to the robot, at most `max_beams` of them, spread evenly; shape (2, n), in cells."""
+        ends = select_beams(scan, Bounds(), 0, self.model.max_beams).ends / self.resolution
+        return np.ascontiguousarray(ends.T, dtype=np.float32)
 
 
 @kernel
 def score(table, x, y, ends, cells):  # type: ignore[no-untyped-def]
-    """Return the mean log-likelihood of beams that end at (x, y) + ends[:, i].
+    """Return the mean term of beams that end at (x, y) + ends[:, i].
 
     The cells are found first and added up then: so the compiler makes vector code of the first loop, which halves the time.
 
@@ -100,14 +121,33 @@ def score(table, x, y, ends, cells):  # type: ignore[no-untyped-def]
     cells
         Room for n int32.
     """
-    flat = table.reshape(-1)
-    stride = np.int32(table.shape[1])
-    right, top = np.float32(table.shape[1] - 1), np.float32(table.shape[0] - 1)
-    x, y = x + np.float32(1.0), y + np.float32(1.0)  # the border
+    ex, ey = ends[0], ends[1]
     for i in range(len(cells)):
-        column = np.int32(min(max(x + ends[0, i], np.float32(0.0)), right))
-        row = np.int32(min(max(y + ends[1, i], np.float32(0.0)), top))
-        cells[i] = row * stride + column
+        cells[i] = _cell(table, x + ex[i], y + ey[i])
+    return _mean(table, cells)
+
+
+@kernel
+def score_turned(table, x, y, heading, ends, cells):  # type: ignore[no-untyped-def]
+    """Return the same for a robot at (x, y) with a heading, and ends relative to the robot."""
+    c, s = np.float32(math.cos(heading)), np.float32(math.sin(heading))
+    ex, ey = ends[0], ends[1]
+    for i in range(len(cells)):
+        cells[i] = _cell(table, x + c * ex[i] - s * ey[i], y + s * ex[i] + c * ey[i])
+    return _mean(table, cells)
+
+
+@kernel
+def _cell(table, x, y):  # type: ignore[no-untyped-def]
+    """Return where in a table a point is, drawn in to its border."""
+    column = np.int32(min(max(x + np.float32(1.0), np.float32(0.0)), np.float32(table.shape[1] - 1)))
+    row = np.int32(min(max(y + np.float32(1.0), np.float32(0.0)), np.float32(table.shape[0] - 1)))
+    return row * np.int32(table.shape[1]) + column
+
+
+@kernel
+def _mean(table, cells):  # type: ignore[no-untyped-def]
+    flat = table.reshape(-1)
     total = 0.0
     for i in range(len(cells)):
         total += flat[np.uint32(cells[i])]

@@ -45,7 +45,7 @@ def test_end_points_far_outside_count_as_the_largest_distance() -> None:
     table, room = LikelihoodField(grid, model).table, np.empty(1, dtype=np.int32)
     for end in ((1e6, 1.0), (-1e6, 1.0), (1.0, 1e6), (1.0, -1e6)):
         found = score(table, np.float32(5.0), np.float32(5.0), np.array([end], dtype=np.float32).T, room)
-        assert found == pytest.approx(float(model.log_likelihood(2.0)), abs=1e-6)
+        assert found == pytest.approx(float(model.term(2.0)), abs=1e-6)
 
 
 @pytest.mark.parametrize("name", ["z_hit", "z_rand", "sigma_hit", "laser_likelihood_max_dist", "laser_max_range", "max_beams"])
