@@ -26,8 +26,9 @@ from ial.particles.odometry_model import OdometryModel
 ABOUT = """\
 Odd scans, map of the even ones, one thread. *Localizer*: the default configuration, 180 beams, from the first scan with one hypothesis on;
 scans that were rejected (`lost`, `blind`) are left out of its times. *Particles*: `ial.particles.MonteCarlo` with 5,000 particles and 36
-beams, `alpha1` … `alpha4` 0.02, 0.005, 0.02, 0.02, from the reference pose of the first scan on; *sum of cubes* is nav2's `likelihood_field`, *product* its
-`likelihood_field_prob` with tempering. Both turns alternate scan by scan. The times of a filter hold everything from a scan to an answer.
+beams, `alpha1` … `alpha4` 0.02, 0.005, 0.02, 0.02, from the reference pose of the first scan on; *sum of cubes* is nav2's
+`likelihood_field`, *product* its `likelihood_field_prob` with tempering. All take turns, scan by scan. The times of a filter hold
+everything from a scan to an answer.
 
 *Whole recording*: all scans, on all cores, from opening the file to the last estimate, without writing results."""
 LOGS = {
@@ -80,7 +81,7 @@ def measure(data: Data, most: int) -> Iterator[str]:
         truth = data.truth.at(step.stamp_ns)
         for kind, peer in peers.items():
             begun = time.perf_counter()
-            cloud = peer.update(step.odometry, step.scan)
+            cloud = peer.update(step.odometry.pose, step.scan)
             theirs[kind].append(time.perf_counter() - begun)
             if truth is not None:
                 errors[kind].append(math.hypot(cloud.pose.x - truth.x, cloud.pose.y - truth.y))
@@ -123,14 +124,15 @@ def main() -> None:
     chosen = parser.parse_args()
     report = Report("Tracking", ABOUT)
     head = (
-        "recording|localizer, ms: median, 99 %|sum of cubes, ms|product, ms|ratio to sum of cubes: median, 99 %|ratio to product: median, 99 %|"
+        "recording|localizer, ms: median, 99 %|sum of cubes, ms|product, ms|"
+        "ratio to sum of cubes: median, 99 %|ratio to product: median, 99 %|"
         "sum of cubes within 0.5 m|product within 0.5 m"
     )
     set_threads(1)
     list(measure(Data.of("aces_austin"), 20))  # compiles
     report.table(head.split("|"), (measure(Data.of(name), chosen.scans) for name in LOGS))
     set_threads(None)
-    report.table("recording|scans|recorded, s|wall, s|of it localizing, s|× real time".split("|"), map(throughput, LOGS))
+    report.table(["recording", "scans", "recorded, s", "wall, s", "of it localizing, s", "× real time"], map(throughput, LOGS))
     report.write(chosen.out)
 
 

@@ -1,13 +1,14 @@
-"""`convert`: writes any recording as a ROS bag that reads back as the very same steps."""
+"""`convert`: writes any recording as a ROS bag or as JSON lines, which read back as the very same steps."""
 
 from itertools import chain
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import IO, TYPE_CHECKING
 
 import numpy as np
 
 from ial.datasets import ros_messages as ros
 from ial.datasets.recording import Reading, Recording
+from ial.datasets.scan_stream import odometry_line, scan_line
 from ial.datasets.tf_buffer import ODOM_FRAME
 from ial.errors import OutputError
 
@@ -50,6 +51,41 @@ def convert(recording: Recording, path: str | Path) -> int:
             _write_odometry(bag, reading)
             _write_scan(bag, reading)
             count += 1
+    return count
+
+
+def convert_to_lines(recording: Recording, target: Path | IO[str]) -> int:
+    """Write a recording as JSON lines (`ial.datasets.scan_stream`), each scan behind its odometry, and return the number of scans.
+
+    Parameters
+    ----------
+    recording
+        What to write.
+    target
+        The file, which appears when it is complete; or an open one, to which lines go as the recording is read.
+
+    Raises
+    ------
+    RecordingError
+        If the recording cannot be read.
+    OutputError
+        If the file cannot be written.
+    """
+    if not isinstance(target, Path):
+        count = 0
+        for reading in recording.readings():
+            target.write(f"{odometry_line(reading)}\n{scan_line(reading.scan)}\n")
+            count += 1
+        return count
+    temporary = target.with_name(f".{target.name}.part")
+    try:
+        with temporary.open("w", encoding="utf-8") as file:
+            count = convert_to_lines(recording, file)
+        temporary.replace(target)
+    except OSError as error:
+        raise OutputError(f"{target}: cannot be written ({error.strerror or error}); choose another folder") from None
+    finally:
+        temporary.unlink(missing_ok=True)
     return count
 
 

@@ -13,7 +13,7 @@ _CARMEN = (b"FLASER", b"ROBOTLASER1", b"ODOM", b"PARAM", b"RLASER", b"SYNC", b"N
 _BEESOFT = (b"L", b"O")
 _LINES_TRIED = 100
 _LINE_LIMIT = 2**20
-_KNOWN = "a ROS 1 .bag, a ROS 2 folder, .db3 or .mcap, a CARMEN log (plain or .gz), or a log of L and O lines"
+_KNOWN = "a ROS 1 .bag, a ROS 2 folder, .db3 or .mcap, a CARMEN log (plain or .gz), a log of L and O lines, or JSON lines"
 
 
 def open_recording(
@@ -26,7 +26,7 @@ def open_recording(
     Parameters
     ----------
     path
-        A ROS 1 ``.bag``; a ROS 2 bag folder, ``.db3`` or ``.mcap``; a CARMEN log or a log of L and O lines, plain or gzip.
+        A ROS 1 ``.bag``; a ROS 2 bag folder, ``.db3`` or ``.mcap``; a CARMEN log, a log of L and O lines, or JSON lines, plain or gzip.
     scan_topic
         The topic of the scans; needed only if there are several.
     odom_topic
@@ -75,10 +75,13 @@ def _open_folder(path: Path, scan_topic: str | None, odom_topic: str | None, las
 def _open_text(path: Path, scan_topic: str | None, laser_pose: Pose | None) -> Recording:
     from ial.datasets.beesoft import BeesoftLog
     from ial.datasets.carmen import CarmenLog
+    from ial.datasets.scan_stream import ScanStream
 
     for line in islice(lines(path), _LINES_TRIED):
         if b"\x00" in line or len(line) > _LINE_LIMIT:
             break
+        if line.lstrip().startswith(b"{"):
+            return ScanStream(path, laser_pose=laser_pose)
         keyword = line.split(maxsplit=1)[:1]
         if not keyword or keyword[0].startswith(b"#"):
             continue

@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from ial.datasets.info import RecordingInfo
@@ -10,7 +10,6 @@ from ial.datasets.motion import Motion, MotionBounds
 from ial.datasets.odometry import Odometry
 from ial.datasets.scan import BeamClass, LaserScan
 from ial.errors import RecordingError
-from ial.pose import Pose
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,17 +77,39 @@ class Step:
     motion
         The motion since the last processed scan; None for the first.
     odometry
-        ``T_odom_base`` at the scan, for pictures.
+        Where the odometry says the robot is at the scan.
     """
 
     index: int
     stamp_ns: int
     motion: Motion | None
     scan: LaserScan
-    odometry: Pose
+    odometry: Odometry
+
+    @property
+    def mark(self) -> "Mark":
+        """What a later run needs in order to go on behind this scan."""
+        return Mark(self.index, self.stamp_ns, self.odometry)
 
 
-def steps(recording: Recording, bounds: MotionBounds, start: int = 0, stop: int | None = None, every: int = 1) -> Iterator[Step]:
+@dataclass(frozen=True)
+class Mark:
+    """The last processed scan of a run that was interrupted.
+
+    Parameters
+    ----------
+    index, stamp_ns, odometry
+        As in `Step`.
+    """
+
+    index: int
+    stamp_ns: int
+    odometry: Odometry
+
+
+def steps(
+    recording: Recording, bounds: MotionBounds, start: int = 0, stop: int | None = None, every: int = 1, after: Mark | None = None
+) -> Iterator[Step]:
     """Yield the scans start, start + every, … below stop, each with the motion since the one yielded before.
 
     Every recorded odometry step in between is enclosed by `bounds` and composed in interval arithmetic.
@@ -101,6 +122,9 @@ def steps(recording: Recording, bounds: MotionBounds, start: int = 0, stop: int 
         How far one recorded odometry step may be from the truth.
     start, stop, every
         Which raw scans to process, like a slice; `stop` is exclusive.
+    after
+        Go on behind this scan: those up to its stamp are passed over. Where the recording does not hold it (a live one, which went on in
+        the meantime), scans are counted on from its number.
 
     Raises
     ------
@@ -109,23 +133,37 @@ def steps(recording: Recording, bounds: MotionBounds, start: int = 0, stop: int 
     """
     if start < 0 or every < 1 or (stop is not None and stop <= start):
         raise RecordingError(f"no scan lies in from {start} to {stop} every {every}; give 0 <= from < to and every >= 1")
-    previous: Reading | None = None
+    previous = None if after is None else after.odometry
     motion: Motion | None = None
-    yielded, usable = 0, False
-    for reading in recording.readings():
+    yielded, usable = 0, after is not None
+    for reading in _behind(recording, after):
         if stop is not None and reading.index >= stop:
             break
-        if previous is not None and yielded:
-            recorded = bounds.enclose(Motion.between(previous.odometry, reading.odometry))
+        if previous is not None and (yielded or after is not None):
+            recorded = bounds.enclose(Motion.between(previous, reading.odometry))
             motion = recorded if motion is None else motion.compose(recorded)
-        previous = reading
+        previous = reading.odometry
         if reading.index < start or (reading.index - start) % every:
             continue
         usable = usable or bool((reading.scan.classes() == BeamClass.HIT).any())
-        yield Step(reading.index, reading.stamp_ns, motion, reading.scan, reading.odometry.pose)
+        yield Step(reading.index, reading.stamp_ns, motion, reading.scan, reading.odometry)
         yielded += 1
         motion = None
-    _check_any(recording, yielded, usable, start)
+    if after is None:
+        _check_any(recording, yielded, usable, start)
+
+
+def _behind(recording: Recording, after: Mark | None) -> Iterator[Reading]:
+    """Yield the readings behind a mark, numbered as if the run had never been interrupted."""
+    if after is None:
+        yield from recording.readings()
+        return
+    offset = after.index + 1
+    for reading in recording.readings():
+        if reading.stamp_ns <= after.stamp_ns:
+            offset = 0  # the recording is read from its beginning once more
+        else:
+            yield reading if not offset else replace(reading, index=reading.index + offset)
 
 
 def _check_any(recording: Recording, yielded: int, usable: bool, start: int) -> None:

@@ -5,8 +5,6 @@ from typing import Literal
 
 Limit = Literal["", "boxes", "time", "memory"]
 
-_FIRST_PORTION = 256  # rows, while it is not known how long one takes
-
 
 class Deadline:
     """A limit on time, and portions of work that keep to it.
@@ -15,9 +13,12 @@ class Deadline:
     ----------
     seconds
         How long from now; None for ever.
+    first
+        How many rows the first portion has, while it is not known how long one takes.
     """
 
-    def __init__(self, seconds: float | None) -> None:
+    def __init__(self, seconds: float | None, first: int = 256) -> None:
+        self._first = first
         self._begun = self._last = time.monotonic()
         self._end = None if seconds is None else self._begun + seconds
         self._per_row = 0.0
@@ -26,6 +27,11 @@ class Deadline:
     def elapsed_s(self) -> float:
         """Seconds since the beginning."""
         return time.monotonic() - self._begun
+
+    @property
+    def left_s(self) -> float | None:
+        """Seconds until the end, 0 after it; None for ever."""
+        return None if self._end is None else max(0.0, self._end - time.monotonic())
 
     def portion(self, rows: int) -> int:
         """Return how many of some rows to work on next; 0 if the time is up.
@@ -38,7 +44,7 @@ class Deadline:
         left = self._end - self._last
         if left <= 0.0:
             return 0
-        wanted = 0.5 * left / self._per_row if self._per_row else _FIRST_PORTION
+        wanted = 0.5 * left / self._per_row if self._per_row else self._first
         return max(1, int(min(wanted, rows)))
 
     def worked(self, rows: int) -> None:

@@ -7,12 +7,10 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from pydantic import ValidationError
 
-from ial.cli.config_keys import ConfigKeys
 from ial.errors import ConfigError
 from ial.lidar.config import LocalizerConfig
-from ial.results.config_record import config_record
+from ial.results.config_record import config_of, config_record
 
 _PREFIX = "IAL_"
 _OTHER_VARIABLES = ("IAL_THREADS", "IAL_CACHE_DIR", "IAL_DATA", "IAL_ITF1788")
@@ -128,12 +126,32 @@ def _merged(below: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any
 
 
 def _validated(record: dict[str, Any], source: str) -> LocalizerConfig:
+    if _as_written(record, config_record(LocalizerConfig())):
+        try:
+            return config_of(record)
+        except ConfigError:
+            pass  # said better below
+    # Only where a value needs to be converted, or an error explained: importing pydantic costs 10 MB, which a robot may not have.
+    from pydantic import ValidationError
+
+    from ial.cli.config_keys import ConfigKeys
+
     try:
         return ConfigKeys.model_validate(record).config()
     except ValidationError as error:
         raise ConfigError("; ".join(f"{source}: {_fault(dict(fault), record)}" for fault in error.errors())) from None
     except ConfigError as error:
         raise ConfigError(f"{source}: {error}") from None
+
+
+def _as_written(value: Any, default: Any) -> bool:
+    """Return whether a value has the very form in which ial writes it: the same keys, and types that need no conversion."""
+    if isinstance(default, dict):
+        return (
+            isinstance(value, dict) and list(value) == list(default) and all(_as_written(value[key], each) for key, each in default.items())
+        )
+    # Where the default is a word or nothing, a number may stand as well.
+    return type(value) is type(default) or (isinstance(default, str | None) and type(value) in (int, float))
 
 
 def _fault(fault: Mapping[str, Any], record: Mapping[str, Any]) -> str:

@@ -4,8 +4,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PlainValidator
 
-from ial.datasets.motion import ErrorBound, MotionBounds
-from ial.lidar.config import Bounds, FreeSpace, LocalizedSize, LocalizerConfig, Precision
+from ial.lidar.config import LocalizerConfig
+from ial.results.config_record import config_of
 
 
 def _number(value: Any) -> Any:
@@ -93,7 +93,7 @@ class ConfigKeys(_Keys):
     domain: Literal["free", "free_or_unknown"] = Field(description="where the base may be")
     localized_size: SizeKeys = Field(description="half-widths up to which a single hypothesis counts as localized")
     recovery: Literal["union", "restart"] = Field(description="what follows a rejection")
-    max_seconds: Size | None = Field(description="a limit on the time of one search, s; null for none")
+    max_seconds: Size | None = Field(description="a limit on the time of one scan, s; null for none")
 
     def config(self) -> LocalizerConfig:
         """Return the configuration of a localizer.
@@ -103,26 +103,4 @@ class ConfigKeys(_Keys):
         ConfigError
             If a value cannot be used.
         """
-        return LocalizerConfig(
-            bounds=Bounds(
-                self.range_error_m,
-                self.bearing_error_rad,
-                self.map_error_m,
-                MotionBounds(
-                    ErrorBound(**self.motion.translation.model_dump()),
-                    ErrorBound(**self.motion.rotation.model_dump()),
-                ),
-            ),
-            outliers=self.outliers,
-            outlier_margin=self.outlier_margin,
-            max_outliers=self.max_outliers,
-            max_jump=self.max_jump,
-            free_space=FreeSpace(**self.free_space.model_dump()),
-            precision=Precision(**self.precision.model_dump()),
-            max_boxes=self.max_boxes,
-            max_beams=self.max_beams,
-            domain=self.domain,
-            localized_size=LocalizedSize(**self.localized_size.model_dump()),
-            recovery=self.recovery,
-            max_seconds=self.max_seconds,
-        )
+        return config_of(self.model_dump())

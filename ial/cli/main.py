@@ -6,7 +6,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
-from ial.cli import convert, info, kidnap, localize, map_info, simulate
+from ial.cli import convert, info, kidnap, localize, map_info, replay, simulate, stream, warm
 from ial.cli.terminal import remark, remarks, say
 from ial.errors import IalError
 
@@ -39,10 +39,13 @@ app = typer.Typer(
 )
 maps = typer.Typer(no_args_is_help=True, help="Look at a map.")
 app.command("localize")(localize.localize)
+app.command("stream")(stream.stream)
 app.command("info")(info.info)
 app.command("convert")(convert.convert)
 app.command("kidnap")(kidnap.kidnap)
 app.command("simulate")(simulate.simulate)
+app.command("replay")(replay.replay)
+app.command("warm")(warm.warm)
 maps.command("info")(map_info.map_info)
 app.add_typer(maps, name="map")
 

@@ -76,6 +76,10 @@ class Localizer:
         """Forget everything but the start."""
         self._filter = SetMembershipFilter(self.model, self.model.recover, self._start)
 
+    def resume(self, poses: PoseSet) -> None:
+        """Go on from a set of poses, in the grid's frame, that `poses` has given before."""
+        self._filter = SetMembershipFilter(self.model, self.model.recover, poses)
+
     @property
     def start(self) -> PoseSet:
         """The set of poses that is assumed before the first scan, in the grid's frame."""
@@ -104,6 +108,7 @@ class Localizer:
 
     def _estimate(self, tracker: SetMembershipFilter[PoseSet, Motion | None, Beams], motion: Motion | None, scan: LaserScan) -> Estimate:
         begun = time.perf_counter()
+        self.model.start_clock()
         beams = scan_beams(scan, self.config)
         rejection = tracker.update(motion, beams)
         poses = tracker.states

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from ial.contractors.boxes import Boxes
 from ial.contractors.paving.limits import Deadline, Limit
 from ial.contractors.paving.paver import pave
+from ial.contractors.paving.waiting import Order
 from ial.datasets.motion import Motion
 from ial.errors import ConfigError
 from ial.lidar.beams import Beams
@@ -34,6 +35,9 @@ _COARSE = 2.0
 _CHUNK = 1 << 12  # tiles that are tried at a time, 2 KB each
 _BATCH = 1 << 14  # larger ones sweep more of a map's table than the caches hold: a third slower on 400 × 400 m
 _LAID_OUT_CELLS = 1 << 17  # above, a set is laid out coarser, and refined by the scan
+_SEARCHING = 0.5  # the share of a scan's time that searches may take; laying out the set and telling its hypotheses apart takes the rest
+_LATE_CELLS = 1 << 12  # of an answer that is given because the time is up
+_FIRST_TILES = 16  # that are tried while it is not known how long one takes
 
 
 class LidarModel(Model[PoseSet, Motion | None, Beams]):
@@ -63,6 +67,12 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         self.bits = BitColumns(_split(grid.mask(OCCUPIED), split)) if config.free_space.use else None
         self.lattice = Lattice(parts * self.occupied.resolution, config.precision.heading_rad, parts)
         self._universe = PoseSet(self.lattice.root(grid.width_m, grid.height_m))
+        self.start_clock()
+
+    def start_clock(self) -> None:
+        """Let the time begin that one scan may take; what is searched for from now on ends with it."""
+        most = self.config.max_seconds
+        self._deadline = Deadline(None if most is None else _SEARCHING * most)
 
     def universe(self) -> PoseSet:
         """Return every pose in the map."""
@@ -112,8 +122,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         tiles = self.lattice.few_tiles(moved, min(_LAID_OUT_CELLS, self.config.max_boxes))
         if tiles is None:
             return self.contract(PoseSet(self._laid_out(moved), outliers=states.outliers), reading)
-        deadline = Deadline(self.config.max_seconds)
-        return _allowing(reading, states.outliers, lambda most: self._tried(tiles, moved, most, 0, deadline))
+        return _allowing(reading, states.outliers, lambda most: self._tried(tiles, moved, most, 0))
 
     def contract(self, states: PoseSet, reading: Beams) -> PoseSet:
         """Return the poses that a scan allows. Confirmed and carried ones stay apart while both survive; what is both is confirmed."""
@@ -132,24 +141,30 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
     def _paved(self, boxes: Boxes, reading: Beams) -> PoseSet:
         if not len(boxes):
             return PoseSet(boxes, outliers=reading.outliers)
-        deadline = Deadline(self.config.max_seconds)
         contractor = PoseContractor(reading, self.occupied, self.domain, self.config.bounds.map_error_m)
         coarse = self.lattice.widths * _COARSE
         nodes = 0
-        limited: Limit = ""
         if (boxes.width() > coarse).any():
-            paving = pave(contractor, boxes, coarse, max_boxes=self.config.max_boxes, max_seconds=self.config.max_seconds, batch=_BATCH)
-            boxes, nodes, limited = paving.boxes, paving.nodes, paving.limited
-        if limited:
-            # A search that was stopped leaves large boxes: finer cells than it had boxes would say no more.
-            cells = self.lattice.cover(boxes, min(2 * len(boxes), self.config.max_boxes))
-            return PoseSet(cells, limited=limited, nodes=nodes, outliers=reading.outliers)
-        return self._tried(self.lattice.tiles(boxes), boxes, reading, nodes, deadline)
+            left = self._deadline.left_s
+            # What the clock leaves half done is to be equally coarse everywhere: the next scan goes on from there.
+            order: Order = "depth" if left is None else "breadth"
+            paving = pave(contractor, boxes, coarse, order=order, max_boxes=self.config.max_boxes, max_seconds=left, batch=_BATCH)
+            boxes, nodes = paving.boxes, paving.nodes
+            if paving.limited:
+                # A search that was stopped leaves large boxes: finer cells than it had boxes would say no more.
+                return self._coarse(boxes, paving.limited, nodes, reading)
+        return self._tried(self.lattice.tiles(boxes), boxes, reading, nodes)
 
-    def _tried(self, tiles: Tiles, boxes: Boxes, reading: Beams, nodes: int, deadline: Deadline) -> PoseSet:
+    def _coarse(self, boxes: Boxes, limited: Limit, nodes: int, reading: Beams) -> PoseSet:
+        """Return cells that cover boxes, of an answer that a limit made coarse."""
+        most = min(2 * len(boxes), self.config.max_boxes, _LATE_CELLS if limited == "time" else self.config.max_boxes)
+        return PoseSet(self.lattice.cover(boxes, most), limited=limited, nodes=nodes, outliers=reading.outliers)
+
+    def _tried(self, tiles: Tiles, boxes: Boxes, reading: Beams, nodes: int) -> PoseSet:
         """Return the cells that may hold a consistent pose; where they are too many, or the time is up, coarse ones that cover `boxes`."""
         if not len(tiles.keys):
             return PoseSet(Boxes.none(3), nodes=nodes, outliers=reading.outliers)
+        deadline = Deadline(self._deadline.left_s, _FIRST_TILES)
         found, counts, total = [], [], 0
         start = 0
         while start < len(tiles.keys):
@@ -159,9 +174,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
             left = Tiles(part.keys, words)
             total += len(left)
             if not portion or total > self.config.max_boxes:
-                limited: Limit = "boxes" if portion else "time"
-                cells = self.lattice.cover(boxes, min(2 * len(boxes), self.config.max_boxes))
-                return PoseSet(cells, limited=limited, nodes=nodes, outliers=reading.outliers)
+                return self._coarse(boxes, "boxes" if portion else "time", nodes, reading)
             cells, bad = self._looked_along(self.lattice.boxes(left), left.values(least), reading)
             found.append(cells)
             counts.append(bad)

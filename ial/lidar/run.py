@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from ial.datasets.recording import Recording, Step, steps
+from ial.datasets.recording import Mark, Recording, Step, steps
 from ial.lidar.estimate import Estimate
 from ial.lidar.localizer import Localizer
 
@@ -15,6 +15,7 @@ def localize(
     stop: int | None = None,
     every: int = 1,
     static: bool = False,
+    after: Mark | None = None,
 ) -> Iterator[tuple[Step, Estimate]]:
     """Yield each processed scan with its estimate.
 
@@ -28,11 +29,13 @@ def localize(
         Which raw scans to process, like a slice; the motion in between is added up.
     static
         Localize each scan by itself.
+    after
+        Go on behind this scan, with a localizer that has been there.
 
     Raises
     ------
     RecordingError
         If the recording cannot be read, or has no usable scan.
     """
-    for step in steps(recording, localizer.config.bounds.motion, start, stop, every):
+    for step in steps(recording, localizer.config.bounds.motion, start, stop, every, after):
         yield step, localizer.locate(step.scan) if static else localizer.update(step.motion, step.scan)

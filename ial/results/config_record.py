@@ -1,11 +1,13 @@
 """The configuration of a localizer in the form in which files hold it."""
 
 import dataclasses
+from collections.abc import Mapping
 from typing import Any
 
 import yaml
 
-from ial.lidar.config import LocalizerConfig
+from ial.datasets.motion import ErrorBound, MotionBounds
+from ial.lidar.config import Bounds, FreeSpace, LocalizedSize, LocalizerConfig, Precision
 
 _HEADER = "# The configuration of a localizer, with every default filled in. Lengths in metres, angles in radians.\n"
 
@@ -14,6 +16,23 @@ def config_record(config: LocalizerConfig) -> dict[str, Any]:
     """Return the keys and values of a configuration file: those of `LocalizerConfig`, with those of its bounds at the top."""
     record = dataclasses.asdict(config)
     return {**record.pop("bounds"), **record}
+
+
+def config_of(record: Mapping[str, Any]) -> LocalizerConfig:
+    """Return the configuration that `config_record` has written; every key must be there.
+
+    Raises
+    ------
+    ConfigError
+        If a value cannot be used.
+    """
+    rest = dict(record)
+    motion = rest.pop("motion")
+    errors = {name: rest.pop(name) for name in ("range_error_m", "bearing_error_rad", "map_error_m")}
+    bounds = Bounds(**errors, motion=MotionBounds(ErrorBound(**motion["translation"]), ErrorBound(**motion["rotation"])))
+    parts = {"free_space": FreeSpace, "precision": Precision, "localized_size": LocalizedSize}
+    made = {name: kind(**rest.pop(name)) for name, kind in parts.items()}
+    return LocalizerConfig(bounds=bounds, **made, **rest)
 
 
 def config_yaml(config: LocalizerConfig) -> str:

@@ -9,7 +9,7 @@ from ial.datasets.recording import Step
 from ial.datasets.stamps import parse_stamp
 from ial.lidar.estimate import Estimate, Hypothesis, Status
 from ial.pose import Pose
-from ial.results.json_lines import JsonLines, read_lines
+from ial.results.json_lines import JsonLines, json_line, read_lines
 
 
 @dataclass(frozen=True)
@@ -74,19 +74,24 @@ class EnclosuresFile(JsonLines):
 
     def add(self, step: Step, estimate: Estimate) -> None:
         """Write the line of one scan."""
-        pose = estimate.pose
-        self.write(
-            step,
-            status=estimate.status,
-            hypotheses=[_hypothesis(each) for each in estimate.hypotheses],
-            pose=None if pose is None else {"x": pose.x, "y": pose.y, "theta": pose.theta},
-            beams=estimate.beams,
-            outliers_allowed=estimate.outliers_allowed,
-            **({"uninformative": True} if estimate.uninformative else {}),
-            limited=estimate.limited or None,
-            radius_m=estimate.radius_m,
-            elapsed_s=estimate.elapsed_s,
-        )
+        self._file.write(enclosure_line(step, estimate))
+
+
+def enclosure_line(step: Step, estimate: Estimate, *, timed: bool = True) -> str:
+    """Return the line of one scan; without ``elapsed_s`` if it shall be the same each time."""
+    pose = estimate.pose
+    return json_line(
+        step,
+        status=estimate.status,
+        hypotheses=[_hypothesis(each) for each in estimate.hypotheses],
+        pose=None if pose is None else {"x": pose.x, "y": pose.y, "theta": pose.theta},
+        beams=estimate.beams,
+        outliers_allowed=estimate.outliers_allowed,
+        **({"uninformative": True} if estimate.uninformative else {}),
+        limited=estimate.limited or None,
+        radius_m=estimate.radius_m,
+        **({"elapsed_s": estimate.elapsed_s} if timed else {}),
+    )
 
 
 def _hypothesis(hypothesis: Hypothesis) -> dict[str, Any]:

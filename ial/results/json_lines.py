@@ -29,11 +29,16 @@ class JsonLines(AbstractContextManager["JsonLines"]):
 
     def write(self, step: Step, **record: Any) -> None:
         """Write what is to be said about a scan."""
-        rest = json.dumps({"index": step.index, **record}, allow_nan=False, ensure_ascii=False)
-        self._file.write(f'{{"stamp": {format_stamp(step.stamp_ns)}, {rest[1:]}\n')
+        self._file.write(json_line(step, **record))
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
         self._file.close()
+
+
+def json_line(step: Step, **record: Any) -> str:
+    """Return the line, with its end, of what is to be said about a scan."""
+    rest = json.dumps({"index": step.index, **record}, allow_nan=False, ensure_ascii=False)
+    return f'{{"stamp": {format_stamp(step.stamp_ns)}, {rest[1:]}\n'
 
 
 def read_lines(path: str | Path) -> Iterator[dict[str, Any]]:

@@ -57,9 +57,9 @@ class RecordingFile(AbstractContextManager["RecordingFile"]):
         if step.scan.frame_id not in self._frames:
             self._write_mounting(step)
         self._last_ns = stamp
-        transforms = [ros.transform(bag, stamp, ODOM, BASE, step.odometry)]
+        transforms = [ros.transform(bag, stamp, ODOM, BASE, step.odometry.pose)]
         if estimate.pose is not None:
-            transforms.append(ros.transform(bag, stamp, MAP, ODOM, estimate.pose @ step.odometry.inverse()))
+            transforms.append(ros.transform(bag, stamp, MAP, ODOM, estimate.pose @ step.odometry.pose.inverse()))
         bag.write("/tf", _TF, stamp, ros.transforms_message(bag, transforms))
         bag.write("/scan", "sensor_msgs/msg/LaserScan", stamp, ros.scan_message(bag, step.scan))
         markers = enclosure_markers(bag, stamp, MAP, self._grid, estimate)

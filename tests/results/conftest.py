@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from ial.contractors.boxes import Boxes
+from ial.datasets.odometry import Odometry
 from ial.datasets.recording import Step
 from ial.datasets.sample import sample_grid, sample_recording
 from ial.datasets.scan import LaserScan, Mounting
@@ -59,6 +60,6 @@ def estimate_of(grid: OccupancyGrid) -> Callable[..., tuple[Step, Estimate]]:
             "elapsed_s": 0.25,
             **changes,
         }
-        return Step(index, stamp, None, scan, Pose(0.1 * index, 0.0, 0.05 * index)), Estimate(**fields)
+        return Step(index, stamp, None, scan, Odometry.of(Pose(0.1 * index, 0.0, 0.05 * index))), Estimate(**fields)
 
     return make

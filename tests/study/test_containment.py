@@ -6,6 +6,7 @@ import pytest
 
 from ial.contractors.boxes import Boxes
 from ial.datasets.motion import Motion
+from ial.datasets.odometry import Odometry
 from ial.datasets.recording import Step
 from ial.datasets.scan import LaserScan, Mounting
 from ial.datasets.trajectory import Trajectory
@@ -42,7 +43,7 @@ def around(motion: Pose, room: float = 0.01) -> Motion:
 
 def step(index: int, **changes: Any) -> Step:
     motion = around(PATH[index - 1].inverse() @ PATH[index]) if index else None
-    return replace(Step(index, stamp(index), motion, scan(PATH[index]), Pose()), **changes)
+    return replace(Step(index, stamp(index), motion, scan(PATH[index]), Odometry.of(Pose())), **changes)
 
 
 def stamp(index: int) -> int:

@@ -1,0 +1,167 @@
+"""`ScanStream`: odometry and scans as lines of JSON, from a file or as they arrive.
+
+Each line is an object with one key.
+
+``{"odometry": {"stamp": "1.500000000", "x": 0.1, "y": 0.2, "z": 0.0, "w": 1.0}}``
+    Where the odometry says the robot is: metres, and the quaternion (0, 0, z, w), or ``theta`` in radians in its place. ``error_m`` and
+    ``error_rad`` say how far it may be from what was recorded; 0 if they are left out.
+
+``{"scan": {"stamp": "1.500000000", "angle_min": -1.57, "angle_increment": 0.017, "ranges": [2.31, null, "inf"]}}``
+    A scan with the numbers of ``sensor_msgs/LaserScan``; optional are ``range_min`` (0), ``range_max`` (``"inf"``), ``time_increment`` (0),
+    ``frame_id`` and ``laser``, which says where the lidar sits on the robot: ``{"x": 0.1, "y": 0.0, "yaw": 0.0, "upside_down": false}``. A
+    range is a number, ``"inf"``, ``"-inf"``, or null for none (REP-117).
+
+A stamp is a time in seconds; as a text it keeps its nanoseconds. The odometry of a scan is looked up at its stamp by the one rule of
+`OdometryBuffer`, so a scan waits until odometry as late as itself has arrived.
+"""
+
+import json
+import math
+from collections import deque
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ial.datasets.odometry import Odometry
+from ial.datasets.odometry_buffer import MAX_GAP_NS, OdometryBuffer
+from ial.datasets.reader import Reader, Record
+from ial.datasets.recording import Reading
+from ial.datasets.scan import LaserScan, Mounting
+from ial.datasets.stamps import format_stamp, parse_stamp
+from ial.datasets.text_log import lines
+from ial.errors import RecordingError
+from ial.pose import Pose
+
+_NUMBERS = {"angle_min", "angle_increment", "range_min", "range_max", "time_increment"}
+_WINDOW_NS = 20 * MAX_GAP_NS  # of the odometry that is kept while no scan comes
+_NEEDED = {"stamp", "angle_min", "angle_increment", "ranges"}
+
+
+class ScanStream(Reader):
+    """A recording as JSON lines.
+
+    Parameters
+    ----------
+    source
+        The file, plain or gzip; or lines as they come, which can be read once.
+    name
+        What to call it in messages; the path by default.
+    laser_pose
+        Where the laser sits, ``T_base_laser``, in place of what the scans say.
+    """
+
+    format = "JSON lines"
+
+    def __init__(self, source: Path | Iterable[bytes], name: str | None = None, laser_pose: Pose | None = None) -> None:
+        super().__init__(str(source) if name is None and isinstance(source, Path) else name or "stream")
+        self._source = source
+        self._mounting = None if laser_pose is None else Mounting(laser_pose.x, laser_pose.y, laser_pose.theta)
+
+    def _records(self) -> Iterator[Record]:
+        odometry: deque[tuple[int, Odometry]] = deque()
+        waiting: deque[tuple[int, dict[str, Any]]] = deque()
+        for line in lines(self._source) if isinstance(self._source, Path) else self._source:
+            if not line.strip():
+                continue
+            kind, content = _parsed(line)
+            try:
+                if kind == "odometry":
+                    self._take(odometry, *_odometry(content))
+                elif kind == "scan":
+                    waiting.append(self._scan_of(content))
+                else:
+                    raise ValueError(kind)
+            except (ValueError, TypeError, KeyError, OverflowError, RecordingError) as error:
+                fault = str(error) if isinstance(error, RecordingError) else "line that is neither odometry nor a scan"
+                if kind == "odometry":
+                    self.repaired["odometry line that cannot be read: left out"] += 1
+                else:
+                    yield Record(None, fault=fault)
+            yield from _ready(waiting, odometry)
+        buffer = OdometryBuffer(odometry)
+        for stamp, scan in waiting:
+            yield Record(stamp, buffer.at(stamp), scan)
+
+    def _take(self, odometry: deque[tuple[int, Odometry]], stamp: int, sample: Odometry) -> None:
+        if not sample.valid:
+            raise ValueError("odometry that is not finite")
+        if odometry and stamp < odometry[-1][0]:
+            self.repaired["odometry older than the one before: left out"] += 1
+            return
+        odometry.append((stamp, sample))
+
+    def _scan_of(self, content: dict[str, Any]) -> tuple[int, dict[str, Any]]:
+        missing = _NEEDED - content.keys()
+        unknown = content.keys() - _NEEDED - _NUMBERS - {"laser", "frame_id"}
+        if missing or unknown:
+            raise RecordingError(f"scan line with {'no' if missing else 'an unknown'} key '{min(missing or unknown)}'")
+        laser = {"x": 0.0, "y": 0.0, "yaw": 0.0, "upside_down": False, **content.get("laser", {})}
+        if len(laser) > 4 or not isinstance(laser["upside_down"], bool):
+            raise RecordingError("scan line whose laser has other keys than x, y, yaw, and upside_down: true or false")
+        mounting = self._mounting or Mounting(float(laser["x"]), float(laser["y"]), float(laser["yaw"]), laser["upside_down"])
+        scan = {name: float(value) for name, value in content.items() if name in _NUMBERS}
+        ranges = np.array([np.nan if value is None else float(value) for value in content["ranges"]], dtype=np.float32)
+        frame = {"frame_id": str(content["frame_id"])} if "frame_id" in content else {}
+        return parse_stamp(str(content["stamp"])), {**scan, **frame, "ranges": ranges, "mounting": mounting}
+
+
+def _parsed(line: bytes) -> tuple[str, dict[str, Any]]:
+    """Return the key of a line and what stands there; nothing where the line is not of that form."""
+    try:
+        ((kind, content),) = json.loads(line).items()
+    except (ValueError, AttributeError, RecursionError):
+        return "", {}
+    return (kind, content) if isinstance(content, dict) else ("", {})
+
+
+def _odometry(content: dict[str, Any]) -> tuple[int, Odometry]:
+    x, y = float(content["x"]), float(content["y"])
+    z, w = (float(content["z"]), float(content["w"])) if "theta" not in content else Pose(0.0, 0.0, float(content["theta"])).quaternion()
+    errors = float(content.get("error_m", 0.0)), float(content.get("error_rad", 0.0))
+    if not all(math.isfinite(error) and error >= 0.0 for error in errors):
+        raise ValueError("an error bound that is negative or not finite")
+    return parse_stamp(str(content["stamp"])), Odometry(x, y, z, w, *errors)
+
+
+def _ready(waiting: deque[tuple[int, dict[str, Any]]], odometry: deque[tuple[int, Odometry]]) -> Iterator[Record]:
+    """Yield the scans whose odometry is known, or will never be; forget the odometry that none can need any more."""
+    latest = odometry[-1][0] if odometry else None
+    while waiting:
+        stamp, scan = waiting[0]
+        known = latest is not None and latest >= stamp
+        if not known and waiting[-1][0] <= stamp + MAX_GAP_NS:
+            return
+        waiting.popleft()
+        yield Record(stamp, OdometryBuffer(odometry).at(stamp), scan)
+        while len(odometry) > 1 and odometry[1][0] <= stamp:
+            odometry.popleft()
+    while len(odometry) > 1 and odometry[0][0] < odometry[-1][0] - _WINDOW_NS:
+        odometry.popleft()
+
+
+def odometry_line(reading: Reading) -> str:
+    """Return the line of a reading's odometry."""
+    odometry = reading.odometry
+    sample = {"stamp": format_stamp(reading.stamp_ns), "x": odometry.x, "y": odometry.y, "z": odometry.z, "w": odometry.w}
+    errors = {"error_m": odometry.error_m, "error_rad": odometry.error_rad} if odometry.error_m or odometry.error_rad else {}
+    return json.dumps({"odometry": {**sample, **errors}})
+
+
+def scan_line(scan: LaserScan) -> str:
+    """Return the line of a scan; each number has as many digits as its float32 needs."""
+    at = scan.mounting
+    laser = {"x": at.x, "y": at.y, "yaw": at.yaw, "upside_down": at.upside_down}
+    numbers = {name: _number(np.float32(getattr(scan, name))) for name in sorted(_NUMBERS)}
+    content = {"stamp": format_stamp(scan.stamp_ns), "frame_id": scan.frame_id, "laser": laser, **numbers}
+    text = json.dumps({"scan": content}, ensure_ascii=False)
+    ranges = ", ".join(json.dumps(_number(value)) for value in scan.ranges)
+    return f'{text[:-2]}, "ranges": [{ranges}]}}}}'
+
+
+def _number(value: np.float32) -> float | str | None:
+    """Return the shortest decimal that is this float32; JSON has no infinities."""
+    if np.isnan(value):
+        return None
+    return float(str(value)) if np.isfinite(value) else str(value)

@@ -1,0 +1,53 @@
+"""`warm`: everything that the localizer runs, once, so that the first scan of a robot does not wait for a compiler."""
+
+import dataclasses
+import math
+
+import numpy as np
+
+from ial.datasets.in_memory import InMemoryRecording
+from ial.datasets.odometry import Odometry
+from ial.datasets.recording import Reading, steps
+from ial.datasets.scan import LaserScan
+from ial.lidar.config import LocalizerConfig
+from ial.lidar.localizer import Localizer
+from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
+from ial.pose import Pose
+
+_SIDE = 80  # cells
+_CELL_M = 0.05
+
+
+def warm(config: LocalizerConfig | None = None) -> None:
+    """Load the kernels that the localizer needs, and compile those that have never been: in a small made-up room.
+
+    Parameters
+    ----------
+    config
+        The configuration that will be used; that of most users by default. The limits in it do not matter.
+    """
+    config = dataclasses.replace(config or LocalizerConfig(), max_seconds=None)
+    for outliers in (config.outliers, 0.1, "auto"):
+        for use in (True, False):
+            free_space = dataclasses.replace(config.free_space, use=use)
+            localizer = Localizer(_room(), config=dataclasses.replace(config, outliers=outliers, free_space=free_space))
+            for step in steps(_recording(), config.bounds.motion):
+                localizer.update(step.motion, step.scan)
+
+
+def _room() -> OccupancyGrid:
+    cells = np.zeros((_SIDE, _SIDE), dtype=np.uint8)
+    cells[[0, -1]] = cells[:, [0, -1]] = OCCUPIED
+    cells[20:30, 50:53] = OCCUPIED
+    return OccupancyGrid(cells, _CELL_M)
+
+
+def _recording() -> InMemoryRecording:
+    """Return a few scans from the middle of the room, and then one that fits nowhere near."""
+    readings = []
+    for index, side in enumerate((1.9, 1.9, 0.7)):
+        angles = np.arange(180) * (math.pi / 90.0)
+        ranges = side / np.maximum(np.abs(np.cos(angles)), np.abs(np.sin(angles)))
+        scan = LaserScan(index + 1, ranges.astype(np.float32), 0.0, math.pi / 90.0, 0.05, 10.0)
+        readings.append(Reading(index, scan.stamp_ns, Odometry.of(Pose()), scan))
+    return InMemoryRecording("a made-up room", readings)
