@@ -84,7 +84,7 @@ def test_the_wheel_names_the_licences_and_the_command(wheel: Path) -> None:
     with zipfile.ZipFile(wheel) as archive:
         facts = {name.partition(".dist-info/")[2]: name for name in archive.namelist() if ".dist-info/" in name}
         assert {"licenses/LICENSE", "licenses/datasets/sample/LICENSE-MRPT"} <= set(facts)
-        assert "ial = ial.cli.main:main" in archive.read(facts["entry_points.txt"]).decode()
+        assert "ial = ial.cli.entry:main" in archive.read(facts["entry_points.txt"]).decode()
         assert "License-Expression: Apache-2.0" in archive.read(facts["METADATA"]).decode()
         assert archive.read(facts["top_level.txt"]).decode().split() == ["ial"]
 

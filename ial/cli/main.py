@@ -1,4 +1,4 @@
-"""`ial`: the command, and how its outcome becomes an exit status."""
+"""`ial`: the commands."""
 
 from importlib.metadata import version
 from typing import Annotated, Any
@@ -7,26 +7,17 @@ import typer
 from typer.core import TyperGroup
 
 from ial.cli import convert, info, kidnap, localize, map_info, replay, simulate, stream, warm
-from ial.cli.terminal import remark, remarks, say
-from ial.errors import IalError
-
-WRONG_INPUT, INTERRUPTED = 2, 130
+from ial.cli.outcome import exit_status
+from ial.cli.terminal import say
 
 
 class Commands(TyperGroup):
-    """Runs a command; an error of ial becomes one line on stderr and exit status 2, an interruption status 130."""
+    """Runs a command and turns what goes wrong into an exit status."""
 
     def invoke(self, ctx: Any) -> Any:
         """Run the chosen command."""
-        with remarks():
-            try:
-                return super().invoke(ctx)
-            except IalError as error:
-                remark("error", str(error), "bold red")
-                raise typer.Exit(WRONG_INPUT) from None
-            except KeyboardInterrupt:
-                remark("interrupted", "nothing was written", "bold red")
-                raise typer.Exit(INTERRUPTED) from None
+        with exit_status():
+            return super().invoke(ctx)
 
 
 app = typer.Typer(
@@ -39,7 +30,6 @@ app = typer.Typer(
 )
 maps = typer.Typer(no_args_is_help=True, help="Look at a map.")
 app.command("localize")(localize.localize)
-app.command("stream")(stream.stream)
 app.command("info")(info.info)
 app.command("convert")(convert.convert)
 app.command("kidnap")(kidnap.kidnap)
@@ -48,6 +38,13 @@ app.command("replay")(replay.replay)
 app.command("warm")(warm.warm)
 maps.command("info")(map_info.map_info)
 app.add_typer(maps, name="map")
+
+
+@app.command(
+    "stream", help=stream.SUMMARY, context_settings={"ignore_unknown_options": True, "allow_extra_args": True, "help_option_names": []}
+)
+def _stream(ctx: typer.Context) -> None:
+    stream.stream(ctx.args)
 
 
 def _print_version(wanted: bool) -> None:
@@ -61,8 +58,3 @@ def ial(
     version: Annotated[bool, typer.Option("--version", help="Print the version.", callback=_print_version, is_eager=True)] = False,
 ) -> None:
     """Guaranteed robot localization: all poses that a lidar recording, a map and error bounds allow."""
-
-
-def main() -> None:
-    """Run the command line."""
-    app()

@@ -1,40 +1,23 @@
-"""`ial stream`: odometry and scans in, one estimate out for each scan, for as long as they come."""
+"""`ial stream`: odometry and scans in, one estimate out for each scan, for as long as they come.
 
+Its options are read by argparse: typer imports pydantic, which a small computer on a robot shall not have to load.
+"""
+
+import argparse
+import math
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
 
-import typer
-
-from ial.cli.options import ConfigPath, LaserPose, MapTopic, Semantics, pose_of
 from ial.errors import ConfigError
+from ial.pose import Pose
+
+SUMMARY = "Localize while odometry and scans arrive as JSON lines on standard input; `ial convert --jsonl` makes such lines."
 
 
-def stream(
-    recording: Annotated[
-        Path | None, typer.Argument(metavar="[RECORDING]", show_default=False, help="Any recording; standard input if it is left out.")
-    ] = None,
-    map_path: Annotated[Path | None, typer.Option("--map", metavar="MAP", help="A map.yaml, or a recording with a map topic.")] = None,
-    config: ConfigPath = None,
-    settings: Annotated[
-        list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Any key of the configuration; may be repeated.")
-    ] = None,
-    deadline: Annotated[
-        float | None, typer.Option(metavar="S", help="Seconds after which a scan is answered with a coarser set, which holds all the same.")
-    ] = None,
-    out: Annotated[Path | None, typer.Option(metavar="FILE", help="Where to write the lines; standard output if it is left out.")] = None,
-    state: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Kept up to date after every scan: a run that was killed goes on from there.")
-    ] = None,
-    laser_pose: LaserPose = None,
-    semantics: Semantics = "nav2",
-    map_topic: MapTopic = None,
-    threads: Annotated[int, typer.Option(metavar="N", min=1, help="Threads of the kernels.")] = 1,
-) -> None:
-    """Localize while odometry and scans arrive as JSON lines on standard input; `ial convert --jsonl` makes such lines.
-
-    Ends when the input ends, or on SIGTERM or Ctrl-C, after the scan at hand.
-    """
-    if map_path is None:
+def stream(arguments: Sequence[str]) -> None:
+    """Run the command with its arguments."""
+    chosen = _parser().parse_args(arguments)
+    if chosen.map is None:
         from ial.datasets.sample import sample_map_path
 
         raise ConfigError(f"no map to localize in; give --map MAP (the one of the embedded recording is {sample_map_path()})")
@@ -42,14 +25,47 @@ def stream(
     from ial.cli.streaming import Streaming
     from ial.contractors.threads import set_threads
 
-    set_threads(threads)
+    set_threads(chosen.threads)
     Streaming(
-        recording=recording,
-        map_path=map_path,
-        config=resolve(config, settings or (), max_seconds=deadline),
-        out=out,
-        state=state,
-        laser_pose=pose_of(laser_pose),
-        semantics=semantics,
-        map_topic=map_topic,
+        recording=chosen.recording,
+        map_path=chosen.map,
+        config=resolve(chosen.config, chosen.set, max_seconds=chosen.deadline),
+        out=chosen.out,
+        state=chosen.state,
+        laser_pose=None if chosen.laser_pose is None else Pose(*chosen.laser_pose),
+        semantics=chosen.map_semantics,
+        map_topic=chosen.map_topic,
     ).run()
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="ial stream",
+        description=SUMMARY,
+        epilog="Ends when the input ends, or on SIGTERM or Ctrl-C after the scan at hand. Exit status: 0 done, 2 wrong input or usage.",
+    )
+    parser.add_argument("recording", metavar="RECORDING", nargs="?", type=Path, help="any recording; standard input if it is left out")
+    parser.add_argument("--map", metavar="MAP", type=Path, help="a map.yaml, or a recording with a nav_msgs/OccupancyGrid topic")
+    parser.add_argument("--config", metavar="FILE", type=Path, help="a YAML file with the configuration")
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], help="any key of it; may be repeated")
+    parser.add_argument(
+        "--deadline", metavar="S", type=float, help="seconds after which a scan is answered with a coarser set, which holds all the same"
+    )
+    parser.add_argument("--out", metavar="FILE", type=Path, help="where to write the lines; standard output if it is left out")
+    parser.add_argument(
+        "--state", metavar="FILE", type=Path, help="kept up to date after every scan: a run that was killed goes on from there"
+    )
+    parser.add_argument(
+        "--laser-pose", metavar=("X", "Y", "YAW"), nargs=3, type=float, help="where the laser sits in base_link, metres and radians"
+    )
+    parser.add_argument("--map-semantics", choices=("nav2", "ros1"), default="nav2", help="whose rules turn pixels into cells")
+    parser.add_argument("--map-topic", metavar="TOPIC", help="the map's topic, if MAP is a recording with several")
+    parser.add_argument("--threads", metavar="N", type=_count, default=1, help="threads of the kernels (1)")
+    return parser
+
+
+def _count(text: str) -> int:
+    number = float(text)
+    if not (math.isfinite(number) and number == int(number) >= 1):
+        raise argparse.ArgumentTypeError("give a whole number of at least 1")
+    return int(number)

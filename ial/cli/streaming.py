@@ -107,13 +107,14 @@ class Streaming:
         checkpoint = None if self.state is None else Checkpoint.load(self.state, localizer)
         if checkpoint is not None:
             localizer.resume(checkpoint.poses)
-            remark("note", f"goes on behind scan {checkpoint.mark.index}, as {self.state} says", "cyan")
         warm(self.config)
         mine = fingerprint(localizer)
         times = Latencies()
         statuses: Counter[str] = Counter()
         with ExitStack() as stack:
             file = self._opened(stack, checkpoint)
+            if checkpoint is not None:
+                remark("note", f"goes on behind scan {checkpoint.mark.index}, as {self.state} says", "cyan")
             ending = stack.enter_context(_Ending())
             source = self._source(ending)
             for step, estimate in localize(source, localizer, after=None if checkpoint is None else checkpoint.mark):

@@ -83,7 +83,7 @@ class Checkpoint:
             If it is damaged, or belongs to another map or configuration.
         """
         try:
-            with np.load(path, allow_pickle=False) as content:
+            with path.open("rb") as file, np.load(file, allow_pickle=False) as content:
                 about = json.loads(content["about"].tobytes())
                 if about["form"] != _FORM or about["limited"] not in get_args(Limit):
                     raise ValueError("not this form")

@@ -11,6 +11,7 @@ from ial.contractors.kernels import kernel
 from ial.lidar.tiles import IntArray, Tiles, filled_tiles, tiles_met
 
 _LARGEST_WORK = 1 << 22  # pairs of a box and a tile; beyond, a coarser lattice is taken
+_WORK_PER_CELL = 32  # the same for each cell that is wanted at most
 
 
 class Lattice:
@@ -139,7 +140,7 @@ def _few_tiles(boxes: Boxes, step: float, edges: FloatArray, max_cells: int) -> 
     ranges = _ranges(boxes, step, edges)
     layers = len(edges) - 1
     largest = (ranges[:, 1::2] - ranges[:, ::2] + 1).prod(axis=1).max(initial=0)
-    if largest > max(max_cells, 8) or tiles_met(ranges, layers) > _LARGEST_WORK:
+    if largest > max(max_cells, 8) or tiles_met(ranges, layers) > min(_LARGEST_WORK, _WORK_PER_CELL * max_cells):
         return None
     tiles = filled_tiles(ranges, layers)
     return tiles if len(tiles) <= max_cells else None

@@ -36,7 +36,7 @@ _CHUNK = 1 << 12  # tiles that are tried at a time, 2 KB each
 _BATCH = 1 << 14  # larger ones sweep more of a map's table than the caches hold: a third slower on 400 × 400 m
 _LAID_OUT_CELLS = 1 << 17  # above, a set is laid out coarser, and refined by the scan
 _SEARCHING = 0.5  # the share of a scan's time that searches may take; laying out the set and telling its hypotheses apart takes the rest
-_LATE_CELLS = 1 << 12  # of an answer that is given because the time is up
+_CELLS_PER_S = 4e5  # that are laid out where time is limited, for each second of it
 _FIRST_TILES = 16  # that are tried while it is not known how long one takes
 
 
@@ -67,6 +67,8 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         self.bits = BitColumns(_split(grid.mask(OCCUPIED), split)) if config.free_space.use else None
         self.lattice = Lattice(parts * self.occupied.resolution, config.precision.heading_rad, parts)
         self._universe = PoseSet(self.lattice.root(grid.width_m, grid.height_m))
+        most = _LAID_OUT_CELLS if config.max_seconds is None else max(64, int(_CELLS_PER_S * config.max_seconds))
+        self._affordable = min(most, _LAID_OUT_CELLS, config.max_boxes)
         self.start_clock()
 
     def start_clock(self) -> None:
@@ -102,7 +104,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
 
     def _laid_out(self, boxes: Boxes) -> Boxes:
         """Return the cells of the lattice that cover boxes, as far as they meet the domain."""
-        cells = self.lattice.cover(self._within_map(boxes), min(_LAID_OUT_CELLS, self.config.max_boxes))
+        cells = self.lattice.cover(self._within_map(boxes), self._affordable)
         return cells[self.domain.meet(Boxes(cells.lower[:, :2], cells.upper[:, :2]))]
 
     def _within_map(self, boxes: Boxes) -> Boxes:
@@ -119,7 +121,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         if motion is None or not reading.informative or states.carried.any():
             return self.contract(self.predict(states, motion), reading)
         moved = self._within_map(move(states.boxes, motion))
-        tiles = self.lattice.few_tiles(moved, min(_LAID_OUT_CELLS, self.config.max_boxes))
+        tiles = self.lattice.few_tiles(moved, self._affordable)
         if tiles is None:
             return self.contract(PoseSet(self._laid_out(moved), outliers=states.outliers), reading)
         return _allowing(reading, states.outliers, lambda most: self._tried(tiles, moved, most, 0))
@@ -157,7 +159,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
 
     def _coarse(self, boxes: Boxes, limited: Limit, nodes: int, reading: Beams) -> PoseSet:
         """Return cells that cover boxes, of an answer that a limit made coarse."""
-        most = min(2 * len(boxes), self.config.max_boxes, _LATE_CELLS if limited == "time" else self.config.max_boxes)
+        most = min(2 * len(boxes), self._affordable if limited == "time" else self.config.max_boxes)
         return PoseSet(self.lattice.cover(boxes, most), limited=limited, nodes=nodes, outliers=reading.outliers)
 
     def _tried(self, tiles: Tiles, boxes: Boxes, reading: Beams, nodes: int) -> PoseSet:

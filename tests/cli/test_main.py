@@ -13,7 +13,7 @@ HEAVY = ("cv2", "matplotlib", "numba", "numpy", "rosbags", "scipy", "yaml")
 
 def run_ial(code: str, *arguments: str) -> "subprocess.CompletedProcess[str]":
     """Run the command in a process of its own, after some code."""
-    program = f"{code}\nimport sys\nfrom ial.cli.main import main\nsys.argv = ['ial', *sys.argv[1:]]\nmain()"
+    program = f"{code}\nimport sys\nfrom ial.cli.entry import main\nsys.argv = ['ial', *sys.argv[1:]]\nmain()"
     return subprocess.run(
         [sys.executable, "-c", program, *arguments], capture_output=True, text=True, check=False, env={**os.environ, "TERM": "dumb"}
     )
