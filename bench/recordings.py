@@ -20,7 +20,8 @@ from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
 from ial.maps.map_file import read_map
 from ial.maps.occupancy_grid import OccupancyGrid
-from ial.study.containment import Containment, TruthFrame
+from ial.study.containment import Containment
+from ial.study.reference import TruthFrame
 
 ABOUT = """\
 Every run has the default configuration. Maps called *even* were drawn from the even scans and are used with the odd ones. References marked

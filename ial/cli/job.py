@@ -31,7 +31,8 @@ from ial.results.recording_mcap import RecordingFile
 from ial.results.result_folder import ResultFolder
 from ial.results.summary import Summary
 from ial.results.trajectory import TrajectoryFile
-from ial.study.containment import Containment, TruthFrame
+from ial.study.containment import Containment
+from ial.study.reference import TruthFrame
 
 
 @dataclass(frozen=True)

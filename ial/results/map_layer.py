@@ -65,11 +65,16 @@ class MapLayer:
         pixels[mask > 0] = to_rgba(colour, 0.85)
         self._show(axes, pixels, zorder=2)
 
+    def draw_pixels(self, axes: Axes, pixels: npt.NDArray[np.float32], width_m: float) -> None:
+        """Lay square pixels over the map, RGBA of shape (rows, columns, 4), the first one at the corner of the grid."""
+        self._place(axes, pixels, width_m, 0.0, 0.0, zorder=2)
+
     def _show(self, axes: Axes, pixels: npt.NDArray[np.float32], zorder: int) -> None:
         row0, _, column0, _ = self._window
         width = self._grid.resolution
-        cell = self._factor * width
-        left, bottom = column0 * width, row0 * width
+        self._place(axes, pixels, self._factor * width, column0 * width, row0 * width, zorder)
+
+    def _place(self, axes: Axes, pixels: npt.NDArray[np.float32], cell: float, left: float, bottom: float, zorder: int) -> None:
         extent = (left, left + cell * pixels.shape[1], bottom, bottom + cell * pixels.shape[0])
         origin = self._grid.origin
         place = Affine2D().rotate(origin.theta).translate(origin.x, origin.y)

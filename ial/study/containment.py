@@ -1,7 +1,7 @@
 """`Containment`: the guarantee measured against a reference trajectory."""
 
 from collections import Counter
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -13,8 +13,7 @@ from ial.lidar.estimate import Estimate
 from ial.lidar.localizer import Localizer
 from ial.pose import Pose
 from ial.study.good_beams import bad_beams
-
-TruthFrame = Literal["base", "laser"]
+from ial.study.reference import TruthFrame, base_pose
 
 
 class Containment:
@@ -50,10 +49,7 @@ class Containment:
 
     def reference(self, step: Step) -> Pose | None:
         """Return ``T_map_base`` of the reference at a scan, None where it has none."""
-        pose = self._truth.at(step.stamp_ns)
-        if pose is None or self._frame == "base":
-            return pose
-        return pose @ step.scan.mounting.pose.inverse()
+        return base_pose(self._truth, self._frame, step)
 
     def add(self, step: Step, estimate: Estimate) -> None:
         """Take the estimate of one scan."""

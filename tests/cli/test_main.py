@@ -24,7 +24,10 @@ def test_version(ial: Callable[..., Any]) -> None:
     assert (result.exit_code, result.stdout) == (0, f"ial {version('ial')}\n")
 
 
-@pytest.mark.parametrize("command", [[], ["localize"], ["info"], ["convert"], ["kidnap"], ["simulate"], ["map"], ["map", "info"]])
+@pytest.mark.parametrize(
+    "command",
+    [[], ["localize"], ["info"], ["convert"], ["kidnap"], ["simulate"], ["replay"], ["stream"], ["warm"], ["map"], ["map", "info"]],
+)
 def test_help(ial: Callable[..., Any], command: list[str]) -> None:
     result = ial(*command, "--help")
     assert (result.exit_code, result.stderr) == (0, "")

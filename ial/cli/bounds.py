@@ -1,0 +1,81 @@
+"""`ial bounds`: which bounds a recording keeps, and a configuration to paste."""
+
+import json
+from pathlib import Path
+from typing import Annotated, Literal
+
+import typer
+
+from ial.cli.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, ScanTopic, Semantics, pose_of
+from ial.cli.out_folder import stamped_folder
+from ial.cli.terminal import progress, say, say_json, shown
+from ial.errors import ConfigError
+
+
+def bounds(
+    recording: Annotated[
+        Path | None, typer.Argument(metavar="[RECORDING]", show_default=False, help="Any recording; the embedded sample if it is left out.")
+    ] = None,
+    map_path: Annotated[Path | None, typer.Option("--map", metavar="MAP", help="A map.yaml, or a recording with a map topic.")] = None,
+    truth: Annotated[
+        Path | None, typer.Option(metavar="TUM", help="A reference trajectory; without it, the localizer's own unique poses are taken.")
+    ] = None,
+    truth_frame: Annotated[Literal["base", "laser"], typer.Option(help="Whose poses the reference holds.")] = "base",
+    config: ConfigPath = None,
+    settings: Annotated[
+        list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Any key of the configuration; may be repeated.")
+    ] = None,
+    out: Annotated[Path | None, typer.Option(metavar="DIR", help="Where to write; out/<recording>-<time> if it is left out.")] = None,
+    start: Annotated[int, typer.Option("--from", metavar="K", min=0, help="The first scan, counted from 0.")] = 0,
+    stop: Annotated[int | None, typer.Option("--to", metavar="K", min=1, help="The scan to stop before.")] = None,
+    every: Annotated[int, typer.Option(metavar="N", min=1, help="Take every Nth scan.")] = 1,
+    scan_topic: ScanTopic = None,
+    odom_topic: OdomTopic = None,
+    laser_pose: LaserPose = None,
+    semantics: Semantics = "nav2",
+    map_topic: MapTopic = None,
+    as_json: Json = False,
+) -> None:
+    """Measure how far beams and odometry are from a reference, and suggest bounds; draw where beams fail.
+
+    Writes bounds.json, config.yaml, failures.npz and picture.png.
+    """
+    if recording is not None and map_path is None:
+        raise ConfigError(f"no map that {recording} belongs to; give --map MAP: a map.yaml, or the recording itself if it holds the map")
+    from ial.cli.bounds_report import lines
+    from ial.cli.config_file import resolve
+    from ial.cli.job import Inputs
+    from ial.datasets.trajectory import read_tum
+    from ial.results.config_record import config_record, config_yaml
+    from ial.results.failure_picture import draw_failures
+    from ial.results.result_folder import ResultFolder
+    from ial.study.bounds_survey import BoundsSurvey
+    from ial.study.reference import own_poses, reference_poses
+
+    resolved = resolve(config, settings or ())
+    folder_path = out or stamped_folder("bounds-" + ("sample" if recording is None else recording.name))
+    with ResultFolder(folder_path) as folder:
+        source, grid = Inputs(recording, map_path, scan_topic, odom_topic, pose_of(laser_pose), semantics, map_topic).open()
+        survey = BoundsSurvey(grid, resolved)
+        if truth is None:
+            pairs = own_poses(source, grid, resolved, start, stop, every)
+        else:
+            pairs = reference_poses(source, read_tum(truth), truth_frame, resolved, start, stop, every)
+        for step, pose in progress(pairs, None, Path(source.name).name):
+            survey.add(step, pose)
+        if not survey.scans:
+            fault = "its stamps do not meet those of the scans" if truth is not None else "the robot was never localized; give --truth"
+            raise ConfigError(f"{source.name}: no scan has a reference pose: {fault}")
+        suggestion = survey.suggestion()
+        record = {"circular": truth is None, **survey.record(), "suggestion": config_record(suggestion)}
+        folder.write("bounds.json", json.dumps(record, indent=2, allow_nan=False, ensure_ascii=False) + "\n")
+        folder.write("config.yaml", config_yaml(suggestion))
+        failures = survey.failures
+        failures.save(folder.place("failures.npz"))
+        draw_failures(folder.place("picture.png"), grid, source.name, failures.cell_m, failures.good, failures.ended, failures.passed)
+    if as_json:
+        say_json(record)
+        return
+    for line in lines(record, resolved):
+        say(line)
+    say(f"results in {shown(folder_path)}; use the bounds with --config {shown(folder_path / 'config.yaml')}")
