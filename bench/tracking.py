@@ -5,20 +5,17 @@ import os
 import statistics
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from report import Report, options
+from sources import LOGS, Source
 
 from ial.contractors.threads import set_threads
-from ial.datasets.in_memory import InMemoryRecording
 from ial.datasets.opening import open_recording
 from ial.datasets.recording import steps
-from ial.datasets.trajectory import Trajectory, read_tum
 from ial.lidar.localizer import Localizer
 from ial.maps.map_file import read_map
-from ial.maps.occupancy_grid import OccupancyGrid
 from ial.particles.likelihood_field import BeamModel
 from ial.particles.monte_carlo import MonteCarlo, MonteCarloConfig
 from ial.particles.odometry_model import OdometryModel
@@ -31,39 +28,17 @@ beams, `alpha1` … `alpha4` 0.02, 0.005, 0.02, 0.02, from the reference pose of
 everything from a scan to an answer.
 
 *Whole recording*: all scans, on all cores, from opening the file to the last estimate, without writing results."""
-LOGS = {
-    "intel_lab": "intel-corrected.log.gz",
-    "freiburg_079": "freiburg-079-corrected.log.gz",
-    "aces_austin": "aces-corrected.log.gz",
-}
 CALM = OdometryModel(0.02, 0.005, 0.02, 0.02)
 
 
-@dataclass(frozen=True)
-class Data:
-    """A recording with its map and reference."""
-
-    name: str
-    recording: InMemoryRecording
-    grid: OccupancyGrid
-    truth: Trajectory
-
-    @classmethod
-    def of(cls, name: str) -> "Data":
-        """Read the files."""
-        folder = Path(os.environ["IAL_DATA"]) / name
-        readings = open_recording(folder / LOGS[name]).readings()
-        return cls(name, InMemoryRecording(name, readings), read_map(folder / "map_even.yaml"), read_tum(folder / "gt.tum"))
-
-
-def particles(data: Data, kind: str) -> MonteCarlo:
+def particles(data: Source, kind: str) -> MonteCarlo:
     """Return a particle filter that knows where the robot is."""
     first = next(steps(data.recording, Localizer(data.grid).config.bounds.motion, 1, None, 2))
     beam = BeamModel(max_beams=36, laser_model_type=kind)  # type: ignore[arg-type]
     return MonteCarlo(data.grid, MonteCarloConfig(beam=beam, odometry=CALM), 1, data.truth.at(first.stamp_ns), (0.2, 0.1))
 
 
-def measure(data: Data, most: int) -> Iterator[str]:
+def measure(data: Source, most: int) -> Iterator[str]:
     """Yield the cells of one line."""
     localizer = Localizer(data.grid)
     peers = {kind: particles(data, kind) for kind in ("likelihood_field", "likelihood_field_prob")}
@@ -129,8 +104,8 @@ def main() -> None:
         "sum of cubes within 0.5 m|product within 0.5 m"
     )
     set_threads(1)
-    list(measure(Data.of("aces_austin"), 20))  # compiles
-    report.table(head.split("|"), (measure(Data.of(name), chosen.scans) for name in LOGS))
+    list(measure(Source.of("aces_austin"), 20))  # compiles
+    report.table(head.split("|"), (measure(Source.of(name), chosen.scans) for name in LOGS))
     set_threads(None)
     report.table(["recording", "scans", "recorded, s", "wall, s", "of it localizing, s", "× real time"], map(throughput, LOGS))
     report.write(chosen.out)
