@@ -11,6 +11,7 @@ from ial.contractors.kernels import kernel
 from ial.lidar.tiles import IntArray, Tiles, filled_tiles, tiles_met
 
 _LARGEST_WORK = 1 << 22  # pairs of a box and a tile; beyond, a coarser lattice is taken
+_TOO_MANY = 2.0  # times as many cells as there may be
 _WORK_PER_CELL = 32  # the same for each cell that is wanted at most
 
 
@@ -46,13 +47,25 @@ class Lattice:
             side *= 2.0
         return Boxes.of([(0.0, side), (0.0, side), (-PI_UPPER, PI_UPPER)])
 
-    def cover(self, boxes: Boxes, max_cells: int) -> Boxes:
-        """Return different cells of one level that together cover all boxes: the finest level on which they are at most `max_cells`."""
+    def cover(self, boxes: Boxes, max_cells: int, volume: float = 0.0) -> Boxes:
+        """Return different cells of one level that together cover all boxes: the finest level on which they are at most `max_cells`.
+
+        Parameters
+        ----------
+        boxes
+            What to cover.
+        max_cells
+            How many cells there may be.
+        volume
+            A volume that the union of the boxes does not fall below by much: levels too fine for it are not tried.
+        """
         boxes = boxes[~boxes.empty]
         if not len(boxes):
             return boxes
         for level in range(64):
             step, edges = self.position_m * 2.0**level, layer_edges(max(1, self.layers >> level))
+            if volume > _TOO_MANY * max_cells * step**2 * 2.0 * math.pi / (len(edges) - 1):
+                continue
             tiles = _few_tiles(boxes, step, edges, max_cells)
             if tiles is not None:
                 return tiles.boxes(step, edges)

@@ -36,7 +36,7 @@ _CHUNK = 1 << 12  # tiles that are tried at a time, 2 KB each
 _BATCH = 1 << 14  # larger ones sweep more of a map's table than the caches hold: a third slower on 400 × 400 m
 _LAID_OUT_CELLS = 1 << 17  # above, a set is laid out coarser, and refined by the scan
 _SEARCHING = 0.5  # the share of a scan's time that searches may take; laying out the set and telling its hypotheses apart takes the rest
-_CELLS_PER_S = 4e5  # that are laid out where time is limited, for each second of it
+_CELLS_PER_S = 2.5e5  # that are laid out where time is limited, for each second of it
 _FIRST_TILES = 16  # that are tried while it is not known how long one takes
 
 
@@ -99,12 +99,13 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         """Return the moved poses that lie in the domain, laid out on the lattice; None is the motion before the first scan."""
         if motion is None:
             return states
-        confirmed, carried = (self._laid_out(move(states.boxes[rows], motion)) for rows in (~states.carried, states.carried))
+        parts = (states.boxes[rows] for rows in (~states.carried, states.carried))
+        confirmed, carried = (self._laid_out(move(boxes, motion), boxes.volume()) for boxes in parts)
         return unite(PoseSet(confirmed, outliers=states.outliers), PoseSet(carried))
 
-    def _laid_out(self, boxes: Boxes) -> Boxes:
-        """Return the cells of the lattice that cover boxes, as far as they meet the domain."""
-        cells = self.lattice.cover(self._within_map(boxes), self._affordable)
+    def _laid_out(self, boxes: Boxes, volume: float = 0.0) -> Boxes:
+        """Return the cells of the lattice that cover boxes, as far as they meet the domain; see `Lattice.cover`."""
+        cells = self.lattice.cover(self._within_map(boxes), self._affordable, volume)
         return cells[self.domain.meet(Boxes(cells.lower[:, :2], cells.upper[:, :2]))]
 
     def _within_map(self, boxes: Boxes) -> Boxes:
@@ -120,10 +121,12 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         """Return what is left after a motion and a scan. A set of ordinary size is laid out and tried in one go."""
         if motion is None or not reading.informative or states.carried.any():
             return self.contract(self.predict(states, motion), reading)
+        volume = states.boxes.volume()
         moved = self._within_map(move(states.boxes, motion))
-        tiles = self.lattice.few_tiles(moved, self._affordable)
+        finest = float(self.lattice.widths.prod())
+        tiles = self.lattice.few_tiles(moved, self._affordable) if volume < 2.0 * self._affordable * finest else None
         if tiles is None:
-            return self.contract(PoseSet(self._laid_out(moved), outliers=states.outliers), reading)
+            return self.contract(PoseSet(self._laid_out(moved, volume), outliers=states.outliers), reading)
         return _allowing(reading, states.outliers, lambda most: self._tried(tiles, moved, most, 0))
 
     def contract(self, states: PoseSet, reading: Beams) -> PoseSet:
@@ -160,7 +163,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
     def _coarse(self, boxes: Boxes, limited: Limit, nodes: int, reading: Beams) -> PoseSet:
         """Return cells that cover boxes, of an answer that a limit made coarse."""
         most = min(2 * len(boxes), self._affordable if limited == "time" else self.config.max_boxes)
-        return PoseSet(self.lattice.cover(boxes, most), limited=limited, nodes=nodes, outliers=reading.outliers)
+        return PoseSet(self.lattice.cover(boxes, most, boxes.volume()), limited=limited, nodes=nodes, outliers=reading.outliers)
 
     def _tried(self, tiles: Tiles, boxes: Boxes, reading: Beams, nodes: int) -> PoseSet:
         """Return the cells that may hold a consistent pose; where they are too many, or the time is up, coarse ones that cover `boxes`."""
