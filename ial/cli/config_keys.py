@@ -91,6 +91,10 @@ class ConfigKeys(_Keys):
     max_boxes: Count = Field(description="a search with more boxes ends with a coarser answer")
     max_beams: Count = Field(description="how many beams of a scan are used at most")
     domain: Literal["free", "free_or_unknown"] = Field(description="where the base may be")
+    robot_radius_m: Bound = Field(description="the base is never nearer to an occupied cell, m")
+    check_every: Annotated[int, BeforeValidator(_number), Field(ge=0)] = Field(
+        description="every so many scans the whole map is searched for a better place; 0 for never"
+    )
     localized_size: SizeKeys = Field(description="half-widths up to which a single hypothesis counts as localized")
     recovery: Literal["union", "restart"] = Field(description="what follows a rejection")
     max_seconds: Size | None = Field(description="a limit on the time of one scan, s; null for none")

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from ial.lidar.config import Precision as Precision
     from ial.lidar.estimate import Estimate as Estimate
     from ial.lidar.estimate import Hypothesis as Hypothesis
+    from ial.lidar.global_check import GlobalCheck as GlobalCheck
     from ial.lidar.localizer import Localizer as Localizer
     from ial.lidar.pose_set import PoseSet as PoseSet
     from ial.lidar.run import localize as localize
@@ -25,6 +26,7 @@ else:
         {
             "config": ("Bounds", "FreeSpace", "LocalizedSize", "LocalizerConfig", "Precision"),
             "estimate": ("Estimate", "Hypothesis"),
+            "global_check": ("GlobalCheck",),
             "localizer": ("Localizer",),
             "pose_set": ("PoseSet",),
             "run": ("localize",),

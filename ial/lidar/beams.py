@@ -56,6 +56,10 @@ class Beams:
         """Whether the scan can exclude any pose at all: with as many outliers as beams it cannot."""
         return self.outliers < len(self)
 
+    def allowing(self, outliers: int) -> "Beams":
+        """Return the same evidence with a fixed number of beams that may be bad."""
+        return dataclasses.replace(self, outliers=outliers, margin=None, jump=None)
+
 
 def scan_beams(scan: LaserScan, config: LocalizerConfig) -> Beams:
     """Return the evidence of a scan as a configuration wants it used."""

@@ -132,6 +132,10 @@ class LocalizerConfig:
         How many beams of a scan are used at most.
     domain
         Where the robot's base may be: in free cells, or in free and unknown ones.
+    robot_radius_m
+        The base is never nearer to an occupied cell than this.
+    check_every
+        Every so many scans the whole map is searched for a place where the scan fits better than where the robot is tracked; 0 for never.
     localized_size
         What counts as localized.
     recovery
@@ -151,6 +155,8 @@ class LocalizerConfig:
     max_boxes: int = 4_000_000
     max_beams: int = 180
     domain: Domain = "free"
+    robot_radius_m: float = 0.0
+    check_every: int = 0
     localized_size: LocalizedSize = field(default_factory=LocalizedSize)
     recovery: Recovery = "union"
     max_seconds: float | None = None
@@ -165,6 +171,9 @@ class LocalizerConfig:
             value = getattr(self, name)
             if not isinstance(value, int) or value < 1:
                 raise ConfigError(f"{name} is {value!r}; give a whole number of at least 1")
+        if isinstance(self.check_every, bool) or not isinstance(self.check_every, int) or self.check_every < 0:
+            raise ConfigError(f"check_every is {self.check_every!r}; give a whole number, 0 for never")
+        _check("robot_radius_m", self.robot_radius_m)
         if self.domain not in ("free", "free_or_unknown"):
             raise ConfigError(f"domain is {self.domain!r}; give 'free' or 'free_or_unknown'")
         if self.recovery not in ("union", "restart"):

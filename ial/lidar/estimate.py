@@ -2,7 +2,7 @@
 
 import itertools
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,9 @@ from ial.lidar.config import LocalizedSize
 from ial.lidar.pose_set import PoseSet
 from ial.maps.occupancy_grid import OccupancyGrid
 from ial.pose import Pose, wrap
+
+if TYPE_CHECKING:
+    from ial.lidar.global_check import GlobalCheck
 
 _FARTHER = 1.0 + 1e-9  # far above the rounding of a distance within a map
 
@@ -89,6 +92,8 @@ class Estimate:
         How long it took.
     radius_m
         While localized: no possible position is farther from `pose` than this, in metres.
+    check
+        The comparison with the rest of the map, at the scans at which there was one.
     """
 
     stamp_ns: int
@@ -102,6 +107,7 @@ class Estimate:
     limited: Limit
     elapsed_s: float
     radius_m: float | None = None
+    check: "GlobalCheck | None" = None
 
 
 def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True) -> tuple[Hypothesis, ...]:

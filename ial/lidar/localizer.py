@@ -9,6 +9,7 @@ from ial.datasets.scan import LaserScan
 from ial.lidar.beams import Beams, scan_beams
 from ial.lidar.config import Bounds, LocalizerConfig, Outliers
 from ial.lidar.estimate import Estimate, are_images, find_hypotheses, judge, radius
+from ial.lidar.global_check import GlobalCheck, check_everywhere
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet
 from ial.maps.occupancy_grid import OccupancyGrid
@@ -74,6 +75,7 @@ class Localizer:
 
     def reset(self) -> None:
         """Forget everything but the start."""
+        self._updates = 0
         self._filter = SetMembershipFilter(self.model, self.model.recover, self._start)
 
     def resume(self, poses: PoseSet) -> None:
@@ -104,7 +106,18 @@ class Localizer:
         scan
             The scan.
         """
-        return self._estimate(self._filter, motion, scan)
+        estimate = self._estimate(self._filter, motion, scan)
+        self._updates += 1
+        every = self.config.check_every
+        if every and self._updates % every == 0 and estimate.status not in ("lost", "blind"):
+            begun = time.perf_counter()
+            check = self.check(scan)
+            estimate = dataclasses.replace(estimate, check=check, elapsed_s=estimate.elapsed_s + time.perf_counter() - begun)
+        return estimate
+
+    def check(self, scan: LaserScan) -> GlobalCheck | None:
+        """Search the whole map for a place where the last scan fits better than in the present set; see `check_everywhere`."""
+        return check_everywhere(self.model, self.poses, scan_beams(scan, self.config))
 
     def _estimate(self, tracker: SetMembershipFilter[PoseSet, Motion | None, Beams], motion: Motion | None, scan: LaserScan) -> Estimate:
         begun = time.perf_counter()

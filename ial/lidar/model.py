@@ -1,18 +1,18 @@
 """`LidarModel`: a robot with a planar lidar in an occupancy grid, as an instance of `ial.membership.Model`."""
 
-import dataclasses
 import math
 from collections.abc import Callable
 
 import numpy as np
 import numpy.typing as npt
+from scipy import ndimage
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.paving.limits import Deadline, Limit
 from ial.contractors.paving.paver import pave
 from ial.contractors.paving.waiting import Order
 from ial.datasets.motion import Motion
-from ial.errors import ConfigError
+from ial.errors import ConfigError, MapError
 from ial.lidar.beams import Beams
 from ial.lidar.bit_columns import BitColumns
 from ial.lidar.cell_counts import count_cells
@@ -32,6 +32,7 @@ from ial.pose import Pose
 _COARSE = 2.0
 """Boxes are bisected down to this many cells of the lattice along each axis; what is left of them is tried part by part."""
 
+_ROUND_UP = 1.0 + 2.0**-40
 _CHUNK = 1 << 12  # tiles that are tried at a time, 2 KB each
 _BATCH = 1 << 14  # larger ones sweep more of a map's table than the caches hold: a third slower on 400 × 400 m
 _LAID_OUT_CELLS = 1 << 17  # above, a set is laid out coarser, and refined by the scan
@@ -63,7 +64,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         self.config = config
         split, parts = divide(grid.resolution, config.precision.position_m)
         self.occupied = CellIndex(_split(grid.mask(OCCUPIED), split), grid.resolution / split)
-        self.domain = CellIndex(_split(grid.mask(*allowed), split), grid.resolution / split)
+        self.domain = CellIndex(_split(self._roomy(grid.mask(*allowed)), split), grid.resolution / split)
         self.bits = BitColumns(_split(grid.mask(OCCUPIED), split)) if config.free_space.use else None
         self.lattice = Lattice(parts * self.occupied.resolution, config.precision.heading_rad, parts)
         self._universe = PoseSet(self.lattice.root(grid.width_m, grid.height_m))
@@ -75,6 +76,25 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         """Let the time begin that one scan may take; what is searched for from now on ends with it."""
         most = self.config.max_seconds
         self._deadline = Deadline(None if most is None else _SEARCHING * most)
+
+    def _roomy(self, allowed: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
+        """Return the allowed cells without those from everywhere in which the robot would touch an obstacle.
+
+        From no point of a cell is a closed occupied cell farther than their middles are apart.
+
+        Raises
+        ------
+        MapError
+            If the robot fits nowhere.
+        """
+        radius = self.config.robot_radius_m
+        if not radius:
+            return allowed
+        distance = ndimage.distance_transform_edt(~self.grid.mask(OCCUPIED)) * (self.grid.resolution * _ROUND_UP)
+        roomy = np.asarray(allowed & (distance >= radius))
+        if not roomy.any():
+            raise MapError(f"a robot with a radius of {radius:g} m fits nowhere in this map; give a smaller robot_radius_m")
+        return roomy
 
     def universe(self) -> PoseSet:
         """Return every pose in the map."""
@@ -240,7 +260,7 @@ def _allowing(reading: Beams, before: int, search: Callable[[Beams], PoseSet]) -
     limit = reading.outliers if reading.jump is None or not before else min(reading.outliers, before + reading.jump)
     most = min(max(before, 2 * reading.margin), limit)
     while True:
-        found = search(dataclasses.replace(reading, outliers=most, margin=None))
+        found = search(reading.allowing(most))
         if len(found):
             needed = most if found.limited else min(int(found.bad.min()) + reading.margin, limit)
             if needed <= most:

@@ -20,6 +20,8 @@ class EventsFile(JsonLines):
     recovered       the first localized scan after a rejection; ``rejected_at`` is the index of the earliest one since the last
                     recovery
     uninformative   a scan could exclude nothing: it has no usable beams, or as many outliers are allowed
+    better_place    the scan fits better somewhere else than where the robot is tracked (`check_every`): ``inside`` and
+                    ``elsewhere`` are the numbers of bad beams, ``x``, ``y`` and ``theta`` the bounds of that place
     limit           a limit stopped the search early, ``by`` "boxes" or "time": the answer is coarser, and holds all the same
     ==============  ========================================================================================================
 
@@ -38,6 +40,10 @@ class EventsFile(JsonLines):
         """Write the events of one scan, most often none."""
         if estimate.uninformative:
             self.write(step, event="uninformative", beams=estimate.beams, outliers_allowed=estimate.outliers_allowed)
+        check = estimate.check
+        if check is not None and check.better and check.best is not None:
+            at = check.best
+            self.write(step, event="better_place", inside=check.inside, elsewhere=check.elsewhere, x=at.x, y=at.y, theta=at.theta)
         if estimate.limited:
             self.write(step, event="limit", by=estimate.limited)
         if estimate.status in ("lost", "blind"):
