@@ -6,7 +6,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
-from ial.cli import bounds, convert, info, kidnap, localize, map_info, replay, simulate, stream, warm
+from ial.cli import bounds, convert, info, kidnap, localize, map_info, replay, simulate, stream, warm, where
 from ial.cli.outcome import exit_status
 from ial.cli.terminal import say
 
@@ -30,6 +30,7 @@ app = typer.Typer(
 )
 maps = typer.Typer(no_args_is_help=True, help="Look at a map.")
 app.command("localize")(localize.localize)
+app.command("where")(where.where)
 app.command("bounds")(bounds.bounds)
 app.command("info")(info.info)
 app.command("convert")(convert.convert)

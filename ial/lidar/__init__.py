@@ -6,6 +6,8 @@ Source: Guyonneau et al. 2014. Names are loaded when they are first used.
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from ial.lidar.atlas import Atlas as Atlas
+    from ial.lidar.atlas import Whereabouts as Whereabouts
     from ial.lidar.config import Bounds as Bounds
     from ial.lidar.config import FreeSpace as FreeSpace
     from ial.lidar.config import LocalizedSize as LocalizedSize
@@ -24,6 +26,7 @@ else:
     __getattr__, __dir__, __all__ = _lazy(
         __name__,
         {
+            "atlas": ("Atlas", "Whereabouts"),
             "config": ("Bounds", "FreeSpace", "LocalizedSize", "LocalizerConfig", "Precision"),
             "estimate": ("Estimate", "Hypothesis"),
             "global_check": ("GlobalCheck",),

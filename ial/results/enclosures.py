@@ -83,7 +83,7 @@ def enclosure_line(step: Step, estimate: Estimate, *, timed: bool = True) -> str
     return json_line(
         step,
         status=estimate.status,
-        hypotheses=[_hypothesis(each) for each in estimate.hypotheses],
+        hypotheses=[hypothesis_record(each) for each in estimate.hypotheses],
         pose=None if pose is None else {"x": pose.x, "y": pose.y, "theta": pose.theta},
         beams=estimate.beams,
         outliers_allowed=estimate.outliers_allowed,
@@ -94,7 +94,8 @@ def enclosure_line(step: Step, estimate: Estimate, *, timed: bool = True) -> str
     )
 
 
-def _hypothesis(hypothesis: Hypothesis) -> dict[str, Any]:
+def hypothesis_record(hypothesis: Hypothesis) -> dict[str, Any]:
+    """Return a hypothesis as plain values that JSON can hold."""
     record = {name: getattr(hypothesis, name) for name in ("x", "y", "theta", "boxes", "volume")}
     if hypothesis.spare_beams is not None:
         record["spare_beams"] = hypothesis.spare_beams

@@ -26,7 +26,21 @@ def test_version(ial: Callable[..., Any]) -> None:
 
 @pytest.mark.parametrize(
     "command",
-    [[], ["localize"], ["info"], ["convert"], ["kidnap"], ["simulate"], ["replay"], ["stream"], ["warm"], ["map"], ["map", "info"]],
+    [
+        [],
+        ["localize"],
+        ["info"],
+        ["convert"],
+        ["kidnap"],
+        ["bounds"],
+        ["where"],
+        ["simulate"],
+        ["replay"],
+        ["stream"],
+        ["warm"],
+        ["map"],
+        ["map", "info"],
+    ],
 )
 def test_help(ial: Callable[..., Any], command: list[str]) -> None:
     result = ial(*command, "--help")
