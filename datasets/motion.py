@@ -166,13 +166,17 @@ class MotionBounds:
     Parameters
     ----------
     translation
-        Bound of each of dx and dy, metres.
+        Bound of dx, and of dy, metres.
     rotation
         Bound of dtheta, radians.
+    sideways
+        Bound of dy alone, metres, for a robot whose wheels do not let it drive sideways; that of `translation` by default, as for an
+        omnidirectional drive. It must cover what a turn within a step does to dy.
     """
 
     translation: ErrorBound = field(default_factory=lambda: ErrorBound(0.12, 0.12, 0.12))
     rotation: ErrorBound = field(default_factory=lambda: ErrorBound(0.08, 0.15, 0.25))
+    sideways: ErrorBound | None = None
 
     def enclose(self, delta: Motion | Pose) -> Motion:
         """Return the box of all true motions, given one recorded odometry step.
@@ -187,6 +191,7 @@ class MotionBounds:
         dx, dy, turn = np.maximum(np.abs(recorded.lower), np.abs(recorded.upper)).tolist()
         distance = hypot(0.0, dx, 0.0, dy)[1]
         shift, twist = self.translation.at(distance, turn), self.rotation.at(distance, turn)
-        bounds = zip(recorded.lower.tolist(), recorded.upper.tolist(), (shift, shift, twist), strict=True)
+        aside = shift if self.sideways is None else self.sideways.at(distance, turn)
+        bounds = zip(recorded.lower.tolist(), recorded.upper.tolist(), (shift, aside, twist), strict=True)
         enclosed = np.array([add(lower, upper, -half, half) for lower, upper, half in bounds])
         return Motion(enclosed[:, 0], enclosed[:, 1])

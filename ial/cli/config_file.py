@@ -129,7 +129,7 @@ def _validated(record: dict[str, Any], source: str) -> LocalizerConfig:
     if _as_written(record, config_record(LocalizerConfig())):
         try:
             return config_of(record)
-        except ConfigError:
+        except (ConfigError, TypeError):
             pass  # said better below
     # Only where a value needs to be converted, or an error explained: importing pydantic costs 10 MB, which a robot may not have.
     from pydantic import ValidationError
@@ -161,7 +161,7 @@ def _fault(fault: Mapping[str, Any], record: Mapping[str, Any]) -> str:
     if fault["type"] == "extra_forbidden":
         level: Any = config_record(LocalizerConfig())
         for part in path[:-1]:
-            level = level[part]
+            level = level[part] or level["translation"]  # what is null by default has the keys of its sibling
         close = difflib.get_close_matches(path[-1], level, 1)
         hint = f"; did you mean '{close[0]}'?" if close else ""
         return f"unknown key '{key}'; allowed are {', '.join(level)}{hint}"

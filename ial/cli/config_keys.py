@@ -53,8 +53,9 @@ class ErrorBoundKeys(_Keys):
 class MotionKeys(_Keys):
     """How far one recorded odometry step may be from the truth."""
 
-    translation: ErrorBoundKeys = Field(description="each of dx and dy, m")
+    translation: ErrorBoundKeys = Field(description="dx, and dy, m")
     rotation: ErrorBoundKeys = Field(description="dθ, rad")
+    sideways: ErrorBoundKeys | None = Field(description="dy alone, m, with all three keys; null: as translation")
 
 
 class SizeKeys(_Keys):

@@ -130,7 +130,9 @@ class BoundsSurvey:
         wanted = dataclasses.replace(bounds, map_error_m=round(max(TOTALS_M[row] - bounds.range_error_m, 0.0), 3))
         if self._ratios:
             translation, rotation = np.quantile(self._ratios, _HELD, axis=0).tolist()
-            motion = MotionBounds(_scaled(bounds.motion.translation, translation), _scaled(bounds.motion.rotation, rotation))
+            motion = bounds.motion
+            sideways = None if motion.sideways is None else _scaled(motion.sideways, translation)
+            motion = MotionBounds(_scaled(motion.translation, translation), _scaled(motion.rotation, rotation), sideways)
             wanted = dataclasses.replace(wanted, motion=motion)
         config = dataclasses.replace(self.config, bounds=wanted)
         if config.outliers == "auto":

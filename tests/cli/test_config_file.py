@@ -16,7 +16,7 @@ BOUND = st.floats(0.0, 10.0)
 ERROR = st.builds(ErrorBound, BOUND, BOUND, BOUND)
 CONFIG = st.builds(
     LocalizerConfig,
-    bounds=st.builds(Bounds, BOUND, BOUND, BOUND, st.builds(MotionBounds, ERROR, ERROR)),
+    bounds=st.builds(Bounds, BOUND, BOUND, BOUND, st.builds(MotionBounds, ERROR, ERROR, st.none() | ERROR)),
     outliers=st.just("auto") | st.integers(0, 100) | st.floats(0.0, 1.0),
     outlier_margin=st.integers(0, 100) | st.floats(0.0, 1.0),
     max_outliers=st.integers(0, 100) | st.floats(0.0, 1.0),

@@ -141,3 +141,12 @@ def test_bounds_must_be_finite_and_not_negative(numbers: tuple[float, float, flo
 def test_bounds_of_a_motion_must_be_ordered() -> None:
     with pytest.raises(ValueError, match="ordered"):
         Motion(np.array([0.0, 0.0, 1.0]), np.array([0.0, 0.0, 0.5]))
+
+
+def test_a_robot_that_cannot_drive_sideways_has_a_bound_of_its_own_for_that() -> None:
+    bounds = MotionBounds(ErrorBound(0.2, 0.1), ErrorBound(0.1), sideways=ErrorBound(0.03, 0.02, 0.5))
+    motion = bounds.enclose(Pose(1.0, 0.0, 0.1))
+    half = 0.5 * (motion.upper - motion.lower)
+    assert half == pytest.approx([0.3, 0.1, 0.1])
+    plain = MotionBounds(bounds.translation, bounds.rotation).enclose(Pose(1.0, 0.0, 0.1))
+    assert 0.5 * (plain.upper - plain.lower) == pytest.approx([0.3, 0.3, 0.1])
