@@ -29,8 +29,9 @@ def config_of(record: Mapping[str, Any]) -> LocalizerConfig:
     rest = dict(record)
     motion = rest.pop("motion")
     errors = {name: rest.pop(name) for name in ("range_error_m", "bearing_error_rad", "map_error_m")}
-    kinds = {name: None if bound is None else ErrorBound(**bound) for name, bound in motion.items()}
-    bounds = Bounds(**errors, motion=MotionBounds(**kinds))
+    sideways = None if motion["sideways"] is None else ErrorBound(**motion["sideways"])
+    wheels = MotionBounds(ErrorBound(**motion["translation"]), ErrorBound(**motion["rotation"]), sideways)
+    bounds = Bounds(**errors, motion=wheels)
     parts = {"free_space": FreeSpace, "precision": Precision, "localized_size": LocalizedSize}
     made = {name: kind(**rest.pop(name)) for name, kind in parts.items()}
     return LocalizerConfig(bounds=bounds, **made, **rest)
