@@ -7,6 +7,7 @@ from typing import IO, TYPE_CHECKING
 import numpy as np
 
 from ial.datasets import ros_messages as ros
+from ial.datasets.odometry import Odometry
 from ial.datasets.recording import Reading, Recording
 from ial.datasets.scan_stream import odometry_line, scan_line
 from ial.datasets.tf_buffer import ODOM_FRAME
@@ -21,8 +22,9 @@ BASE = "base_link"
 def convert(recording: Recording, path: str | Path) -> int:
     """Write a recording as ``.mcap`` (ROS 2) or ``.bag`` (ROS 1) and return the number of scans.
 
-    Topics: ``/scan``; ``/odom``, one message at each scan's stamp; ``/tf_static`` with the mounting; ``/tf`` with odom → base_link; and,
-    where odometry was interpolated, ``/odom_error``. Scans that are skipped when the recording is read are not written.
+    Topics: ``/scan``; ``/odom``, one message at each scan's stamp, and one at its last beam where that has a time of its own;
+    ``/tf_static`` with the mounting; ``/tf`` with odom → base_link; and, where odometry was interpolated, ``/odom_error``. Scans that are
+    skipped when the recording is read are not written.
 
     Parameters
     ----------
@@ -48,8 +50,10 @@ def convert(recording: Recording, path: str | Path) -> int:
         for reading in chain([first], readings):
             if reading.scan.mounting != first.scan.mounting or reading.scan.frame_id != first.scan.frame_id:
                 raise OutputError(f"{path}: the laser's frame or mounting changes at scan {reading.index}, which one bag cannot say")
-            _write_odometry(bag, reading)
+            _write_odometry(bag, reading.odometry, reading.stamp_ns)
             _write_scan(bag, reading)
+            if reading.end is not None:
+                _write_odometry(bag, reading.end, reading.scan.end_ns)
             count += 1
     return count
 
@@ -74,7 +78,7 @@ def convert_to_lines(recording: Recording, target: Path | IO[str]) -> int:
     if not isinstance(target, Path):
         count = 0
         for reading in recording.readings():
-            target.write(f"{odometry_line(reading)}\n{scan_line(reading.scan)}\n")
+            target.write(f"{odometry_line(reading)}\n{scan_line(reading.scan, reading.end)}\n")
             count += 1
         return count
     temporary = target.with_name(f".{target.name}.part")
@@ -94,8 +98,7 @@ def _write_mounting(bag: "BagWriter", first: Reading) -> None:
     bag.write("/tf_static", "tf2_msgs/msg/TFMessage", first.stamp_ns, ros.transforms_message(bag, [transform]), latched=True)
 
 
-def _write_odometry(bag: "BagWriter", reading: Reading) -> None:
-    odometry, stamp = reading.odometry, reading.stamp_ns
+def _write_odometry(bag: "BagWriter", odometry: Odometry, stamp: int) -> None:
     turn = ros.rotation(bag, 0.0, 0.0, odometry.z, odometry.w)
     transform = ros.stamped_transform(bag, stamp, ODOM_FRAME, BASE, odometry.x, odometry.y, turn)
     bag.write("/tf", "tf2_msgs/msg/TFMessage", stamp, ros.transforms_message(bag, [transform]))

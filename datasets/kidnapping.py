@@ -60,13 +60,15 @@ def kidnap(
     jumped = False
     for number, place in enumerate(order):
         reading = readings[place]
-        stamp, odometry = reading.stamp_ns, reading.odometry  # before the first jump nothing changes, to the last bit
+        stamp, odometry, end = reading.stamp_ns, reading.odometry, reading.end  # before the first jump nothing changes, to the last bit
         jumped = jumped or place != number
         if jumped:
             source = max(place, 1)  # the first scan has no step before it: the one behind it serves
             stamp = moved[-1].stamp_ns + readings[source].stamp_ns - readings[source - 1].stamp_ns
             odometry = _continued(moved[-1].odometry, readings[source - 1].odometry, readings[source].odometry)
-        moved.append(replace(reading, index=number, stamp_ns=stamp, odometry=odometry, scan=replace(reading.scan, stamp_ns=stamp)))
+            end = None if end is None else _continued(odometry, reading.odometry, end)
+        scan = replace(reading.scan, stamp_ns=stamp)
+        moved.append(Reading(number, stamp, odometry, scan, end))
         pose = None if truth is None else truth.at(reading.stamp_ns)
         if pose is not None:
             stamps.append(stamp)

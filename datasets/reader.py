@@ -30,12 +30,15 @@ class Record:
         The arguments of `LaserScan`, without the stamp.
     fault
         Why it cannot be used, if it cannot.
+    end
+        Its odometry at the last beam, where that is known.
     """
 
     stamp_ns: int | None
     odometry: Odometry | None = None
     scan: dict[str, Any] = field(default_factory=dict)
     fault: str = ""
+    end: Odometry | None = None
 
 
 class Reader(ABC):
@@ -91,7 +94,7 @@ class Reader(ABC):
                 self.skipped[scan] += 1
             elif record.odometry is not None:
                 yielded += 1
-                yield Reading(index, scan.stamp_ns, record.odometry, scan)
+                yield Reading(index, scan.stamp_ns, record.odometry, scan, record.end)
         if not yielded:
             self._refuse()
 

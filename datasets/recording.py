@@ -26,12 +26,20 @@ class Reading:
         Where the odometry says the robot was at that time.
     scan
         The scan.
+    end
+        The odometry at the last beam, where beams have times of their own and the recording tells it.
     """
 
     index: int
     stamp_ns: int
     odometry: Odometry
     scan: LaserScan
+    end: Odometry | None = None
+
+    @property
+    def swept(self) -> LaserScan:
+        """The scan with the motion during it, if that is known."""
+        return self.scan if self.end is None else replace(self.scan, sweep=self.odometry.pose.inverse() @ self.end.pose)
 
 
 class Recording(Protocol):
@@ -146,7 +154,7 @@ def steps(
         if reading.index < start or (reading.index - start) % every:
             continue
         usable = usable or bool((reading.scan.classes() == BeamClass.HIT).any())
-        yield Step(reading.index, reading.stamp_ns, motion, reading.scan, reading.odometry)
+        yield Step(reading.index, reading.stamp_ns, motion, reading.swept, reading.odometry)
         yielded += 1
         motion = None
     if after is None:

@@ -1,5 +1,6 @@
 """`RosBag`: recordings of ROS 1 and ROS 2."""
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -137,7 +138,9 @@ def _record(message: Any, odometry: OdometryBuffer, mounting: Mounting, frame: s
     stamp = stamp_of(message)
     names = ("ranges", "angle_min", "angle_increment", "range_min", "range_max", "time_increment")
     scan = {name: getattr(message, name) for name in names}
-    return Record(stamp, odometry.at(stamp), {**scan, "mounting": mounting, "frame_id": frame})
+    end = stamp + round(1e9 * message.time_increment * (len(message.ranges) - 1)) if math.isfinite(message.time_increment) else stamp
+    during = None if end == stamp else odometry.at(end)
+    return Record(stamp, odometry.at(stamp), {**scan, "mounting": mounting, "frame_id": frame}, end=during)
 
 
 def _listed(topics: list[Topic]) -> str:

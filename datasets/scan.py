@@ -85,6 +85,8 @@ class LaserScan:
         Where the lidar sits on the robot.
     frame_id
         Name of the laser's frame.
+    sweep
+        How the base moved from the first beam to the last, by its odometry, in the frame of the base at the first; None if it is not known.
 
     Raises
     ------
@@ -102,6 +104,7 @@ class LaserScan:
     time_increment: float = 0.0
     mounting: Mounting = field(default_factory=Mounting)
     frame_id: str = "laser"
+    sweep: Pose | None = None
 
     def __post_init__(self) -> None:
         with np.errstate(over="ignore"):
@@ -124,6 +127,11 @@ class LaserScan:
 
     def __len__(self) -> int:
         return len(self.ranges)
+
+    @property
+    def end_ns(self) -> int:
+        """Time of the last beam, nanoseconds."""
+        return self.stamp_ns + round(1e9 * self.time_increment * (len(self.ranges) - 1))
 
     def classes(self) -> npt.NDArray[np.uint8]:
         """Return the `BeamClass` of each beam, uint8 of shape (n,).

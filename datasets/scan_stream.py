@@ -8,8 +8,9 @@ Each line is an object with one key.
 
 ``{"scan": {"stamp": "1.500000000", "angle_min": -1.57, "angle_increment": 0.017, "ranges": [2.31, null, "inf"]}}``
     A scan with the numbers of ``sensor_msgs/LaserScan``; optional are ``range_min`` (0), ``range_max`` (``"inf"``), ``time_increment`` (0),
-    ``frame_id`` and ``laser``, which says where the lidar sits on the robot: ``{"x": 0.1, "y": 0.0, "yaw": 0.0, "upside_down": false}``. A
-    range is a number, ``"inf"``, ``"-inf"``, or null for none (REP-117).
+    ``frame_id``, ``laser``, which says where the lidar sits on the robot (``{"x": 0.1, "y": 0.0, "yaw": 0.0, "upside_down": false}``), and
+    ``end``, the odometry at the last beam (``x``, ``y``, ``z``, ``w``). A range is a number, ``"inf"``, ``"-inf"``, or null for none
+    (REP-117).
 
 A stamp is a time in seconds; as a text it keeps its nanoseconds. The odometry of a scan is looked up at its stamp by the one rule of
 `OdometryBuffer`, so a scan waits until odometry as late as itself has arrived.
@@ -38,6 +39,8 @@ _NUMBERS = {"angle_min", "angle_increment", "range_min", "range_max", "time_incr
 _WINDOW_NS = 20 * MAX_GAP_NS  # of the odometry that is kept while no scan comes
 _NEEDED = {"stamp", "angle_min", "angle_increment", "ranges"}
 
+_Waiting = tuple[int, dict[str, Any], Odometry | None]
+
 
 class ScanStream(Reader):
     """A recording as JSON lines.
@@ -61,7 +64,7 @@ class ScanStream(Reader):
 
     def _records(self) -> Iterator[Record]:
         odometry: deque[tuple[int, Odometry]] = deque()
-        waiting: deque[tuple[int, dict[str, Any]]] = deque()
+        waiting: deque[_Waiting] = deque()
         for line in lines(self._source) if isinstance(self._source, Path) else self._source:
             if not line.strip():
                 continue
@@ -81,8 +84,8 @@ class ScanStream(Reader):
                     yield Record(None, fault=fault)
             yield from _ready(waiting, odometry)
         buffer = OdometryBuffer(odometry)
-        for stamp, scan in waiting:
-            yield Record(stamp, buffer.at(stamp), scan)
+        for stamp, scan, end in waiting:
+            yield Record(stamp, buffer.at(stamp), scan, end=end)
 
     def _take(self, odometry: deque[tuple[int, Odometry]], stamp: int, sample: Odometry) -> None:
         if not sample.valid:
@@ -92,9 +95,9 @@ class ScanStream(Reader):
             return
         odometry.append((stamp, sample))
 
-    def _scan_of(self, content: dict[str, Any]) -> tuple[int, dict[str, Any]]:
+    def _scan_of(self, content: dict[str, Any]) -> "_Waiting":
         missing = _NEEDED - content.keys()
-        unknown = content.keys() - _NEEDED - _NUMBERS - {"laser", "frame_id"}
+        unknown = content.keys() - _NEEDED - _NUMBERS - {"laser", "frame_id", "end"}
         if missing or unknown:
             raise RecordingError(f"scan line with {'no' if missing else 'an unknown'} key '{min(missing or unknown)}'")
         laser = {"x": 0.0, "y": 0.0, "yaw": 0.0, "upside_down": False, **content.get("laser", {})}
@@ -104,7 +107,8 @@ class ScanStream(Reader):
         scan = {name: float(value) for name, value in content.items() if name in _NUMBERS}
         ranges = np.array([np.nan if value is None else float(value) for value in content["ranges"]], dtype=np.float32)
         frame = {"frame_id": str(content["frame_id"])} if "frame_id" in content else {}
-        return parse_stamp(str(content["stamp"])), {**scan, **frame, "ranges": ranges, "mounting": mounting}
+        end = _sample_of(content["end"]) if "end" in content else None
+        return parse_stamp(str(content["stamp"])), {**scan, **frame, "ranges": ranges, "mounting": mounting}, end
 
 
 def _parsed(line: bytes) -> tuple[str, dict[str, Any]]:
@@ -117,24 +121,28 @@ def _parsed(line: bytes) -> tuple[str, dict[str, Any]]:
 
 
 def _odometry(content: dict[str, Any]) -> tuple[int, Odometry]:
+    return parse_stamp(str(content["stamp"])), _sample_of(content)
+
+
+def _sample_of(content: dict[str, Any]) -> Odometry:
     x, y = float(content["x"]), float(content["y"])
     z, w = (float(content["z"]), float(content["w"])) if "theta" not in content else Pose(0.0, 0.0, float(content["theta"])).quaternion()
     errors = float(content.get("error_m", 0.0)), float(content.get("error_rad", 0.0))
     if not all(math.isfinite(error) and error >= 0.0 for error in errors):
         raise ValueError("an error bound that is negative or not finite")
-    return parse_stamp(str(content["stamp"])), Odometry(x, y, z, w, *errors)
+    return Odometry(x, y, z, w, *errors)
 
 
-def _ready(waiting: deque[tuple[int, dict[str, Any]]], odometry: deque[tuple[int, Odometry]]) -> Iterator[Record]:
+def _ready(waiting: deque["_Waiting"], odometry: deque[tuple[int, Odometry]]) -> Iterator[Record]:
     """Yield the scans whose odometry is known, or will never be; forget the odometry that none can need any more."""
     latest = odometry[-1][0] if odometry else None
     while waiting:
-        stamp, scan = waiting[0]
+        stamp, scan, end = waiting[0]
         known = latest is not None and latest >= stamp
         if not known and waiting[-1][0] <= stamp + MAX_GAP_NS:
             return
         waiting.popleft()
-        yield Record(stamp, OdometryBuffer(odometry).at(stamp), scan)
+        yield Record(stamp, OdometryBuffer(odometry).at(stamp), scan, end=end)
         while len(odometry) > 1 and odometry[1][0] <= stamp:
             odometry.popleft()
     while len(odometry) > 1 and odometry[0][0] < odometry[-1][0] - _WINDOW_NS:
@@ -144,17 +152,22 @@ def _ready(waiting: deque[tuple[int, dict[str, Any]]], odometry: deque[tuple[int
 def odometry_line(reading: Reading) -> str:
     """Return the line of a reading's odometry."""
     odometry = reading.odometry
-    sample = {"stamp": format_stamp(reading.stamp_ns), "x": odometry.x, "y": odometry.y, "z": odometry.z, "w": odometry.w}
-    errors = {"error_m": odometry.error_m, "error_rad": odometry.error_rad} if odometry.error_m or odometry.error_rad else {}
-    return json.dumps({"odometry": {**sample, **errors}})
+    return json.dumps({"odometry": {"stamp": format_stamp(reading.stamp_ns), **_sample(odometry)}})
 
 
-def scan_line(scan: LaserScan) -> str:
-    """Return the line of a scan; each number has as many digits as its float32 needs."""
+def _sample(odometry: Odometry) -> dict[str, float]:
+    sample = {"x": odometry.x, "y": odometry.y, "z": odometry.z, "w": odometry.w}
+    return {**sample, **({"error_m": odometry.error_m, "error_rad": odometry.error_rad} if odometry.error_m or odometry.error_rad else {})}
+
+
+def scan_line(scan: LaserScan, end: Odometry | None = None) -> str:
+    """Return the line of a scan, with the odometry at its last beam if that is known; numbers have the digits that a float32 needs."""
     at = scan.mounting
     laser = {"x": at.x, "y": at.y, "yaw": at.yaw, "upside_down": at.upside_down}
     numbers = {name: _number(np.float32(getattr(scan, name))) for name in sorted(_NUMBERS)}
     content = {"stamp": format_stamp(scan.stamp_ns), "frame_id": scan.frame_id, "laser": laser, **numbers}
+    if end is not None:
+        content["end"] = _sample(end)
     text = json.dumps({"scan": content}, ensure_ascii=False)
     ranges = ", ".join(json.dumps(_number(value)) for value in scan.ranges)
     return f'{text[:-2]}, "ranges": [{ranges}]}}}}'

@@ -91,6 +91,7 @@ class ConfigKeys(_Keys):
     precision: SizeKeys = Field(description="the widths below which a box is not bisected")
     max_boxes: Count = Field(description="a search with more boxes ends with a coarser answer")
     max_beams: Count = Field(description="how many beams of a scan are used at most")
+    deskew: bool = Field(description="whether the motion during a scan is taken out, where it is known")
     domain: Literal["free", "free_or_unknown"] = Field(description="where the base may be")
     robot_radius_m: Bound = Field(description="the base is never nearer to an occupied cell, m")
     check_every: Annotated[int, BeforeValidator(_number), Field(ge=0)] = Field(

@@ -65,6 +65,7 @@ def scan_beams(scan: LaserScan, config: LocalizerConfig) -> Beams:
     """Return the evidence of a scan as a configuration wants it used."""
     automatic = config.outliers == "auto"
     outliers = config.max_outliers if config.outliers == "auto" else config.outliers
+    scan = scan if config.deskew or scan.sweep is None else dataclasses.replace(scan, sweep=None)
     beams = select_beams(scan, config.bounds, outliers, config.max_beams, config.free_space)
     if not automatic:
         return beams
@@ -84,28 +85,77 @@ def select_beams(scan: LaserScan, bounds: Bounds, outliers: int | float, max_bea
     """
     classes = scan.classes()
     used = _spread(np.flatnonzero(classes == BeamClass.HIT), max_beams)
-    angle, turn, units = _directions(len(scan), scan.angle_min, scan.angle_increment, scan.mounting, bounds.bearing_error_rad)
+    paths = _paths(scan, bounds)
     reading = scan.ranges[used].astype(np.float64)
-    directions = units[used]
-    ends = np.array([scan.mounting.x, scan.mounting.y]) + reading[:, None] * directions
+    directions = paths.units[used]
+    ends = paths.origins[used] + reading[:, None] * directions
 
     radial = bounds.range_error_m + scan.range_slack()[used]
     reach = reading + radial
-    rounding = 2.0**-48 * (reach + abs(scan.mounting.x) + abs(scan.mounting.y))  # of the products and sums that made `ends`
-    errors = np.stack([radial + 0.5 * reach * turn[used] ** 2, reach * turn[used]], axis=1) + rounding[:, None]
+    turn, blur = paths.turns[used], paths.blurs[used]
+    rounding = 2.0**-48 * (reach + np.abs(paths.origins[used]).sum(axis=1))  # of the products and sums that made `ends`
+    errors = np.stack([radial + 0.5 * reach * turn**2, reach * turn], axis=1) + (blur + rounding)[:, None]
     rays = None
     if free_space is not None and free_space.use:
         among = _spread(np.arange(len(used)), free_space.max_rays)
         alone = np.flatnonzero(classes == BeamClass.NO_RETURN) if free_space.no_return_m else np.empty(0, dtype=np.intp)
         alone = _spread(alone, free_space.max_rays)
         farthest = min(free_space.no_return_m, scan.range_max) - bounds.range_error_m
-        lengths = np.concatenate([reading[among] - radial[among], np.full(len(alone), farthest)]) - free_space.margin_m
         rows = np.concatenate([used[among], alone])
+        lengths = np.concatenate([reading[among] - radial[among], np.full(len(alone), farthest)]) - free_space.margin_m - paths.blurs[rows]
         numbers = np.concatenate([among, np.full(len(alone), -1)]).astype(np.int64)
-        origin = np.array([scan.mounting.x, scan.mounting.y])
-        rays = Rays(origin, angle[rows], turn[rows], lengths * (1.0 - 2.0**-40), numbers, free_space.margin_m)
+        margins = (free_space.margin_m + paths.blurs[rows]) * _ROUND_UP
+        rays = Rays(paths.origins[rows], paths.angles[rows], paths.turns[rows], lengths * (1.0 - 2.0**-40), numbers, margins)
     beams = Beams(ends, directions, errors * _ROUND_UP, 0, rays)
     return dataclasses.replace(beams, outliers=_number(outliers, len(beams)))
+
+
+@dataclass(frozen=True, eq=False)
+class _Paths:
+    """Where each beam of a scan begins and which way it goes, in the base frame at the scan's stamp.
+
+    Parameters
+    ----------
+    origins
+        Where the laser was, float64 of shape (n, 2).
+    blurs
+        By how much that may be wrong (m).
+    angles, turns
+        The direction of each beam, and by how much it may be wrong (rad).
+    units
+        The unit vectors that point there, float64 of shape (n, 2).
+    """
+
+    origins: FloatArray
+    blurs: FloatArray
+    angles: FloatArray
+    turns: FloatArray
+    units: FloatArray
+
+
+def _paths(scan: LaserScan, bounds: Bounds) -> _Paths:
+    """Return the paths of all beams; where the robot moved during the scan, each is seen from where the robot was at that beam.
+
+    The motion up to a beam is taken as the beam's share of the whole, x, y and θ each; it may be wrong by that share of what the bounds
+    of motion say of such a motion, without their base.
+    """
+    angle, turn, units = _directions(len(scan), scan.angle_min, scan.angle_increment, scan.mounting, bounds.bearing_error_rad)
+    laser = np.array([scan.mounting.x, scan.mounting.y])
+    sweep = scan.sweep
+    if sweep is None or len(scan) < 2:
+        return _Paths(np.broadcast_to(laser, (len(scan), 2)), np.zeros(len(scan)), angle, turn, units)
+    share = np.arange(len(scan)) / (len(scan) - 1)
+    way, twist = math.hypot(sweep.x, sweep.y), abs(sweep.theta)
+    motion = bounds.motion
+    off_m, off_rad = (part.at(way, twist) - part.base for part in (motion.translation, motion.rotation))
+    turned = share * sweep.theta
+    c, s = np.cos(turned), np.sin(turned)
+    origins = np.stack([c * laser[0] - s * laser[1], s * laser[0] + c * laser[1]], axis=1) + share[:, None] * (sweep.x, sweep.y)
+    # Each coordinate may be off by `off_m`; and the laser, at the end of an arm, by the error of the heading.
+    blurs = share * (math.sqrt(2.0) * off_m + math.hypot(*laser) * off_rad) * _ROUND_UP
+    angle = angle + turned
+    turn = turn + share * off_rad * _ROUND_UP + _angle_rounding(angle)
+    return _Paths(origins, blurs, angle, turn, np.stack([np.cos(angle), np.sin(angle)], axis=1))
 
 
 def _spread(rows: npt.NDArray[np.intp], most: int) -> npt.NDArray[np.intp]:

@@ -130,6 +130,9 @@ class LocalizerConfig:
         A search with more boxes than this ends with a coarser answer, which is marked.
     max_beams
         How many beams of a scan are used at most.
+    deskew
+        Whether beams are seen from where the robot was at their own times, where a recording tells that. Only for a lidar whose stamp is
+        that of the first beam and whose `time_increment` has the right sign: drivers that turn a scan around often keep it.
     domain
         Where the robot's base may be: in free cells, or in free and unknown ones.
     robot_radius_m
@@ -154,6 +157,7 @@ class LocalizerConfig:
     precision: Precision = field(default_factory=Precision)
     max_boxes: int = 4_000_000
     max_beams: int = 180
+    deskew: bool = False
     domain: Domain = "free"
     robot_radius_m: float = 0.0
     check_every: int = 0

@@ -162,17 +162,17 @@ def blocked(box, laser, ray, margin, table, upwards, rightwards):  # type: ignor
 @kernel
 def _block_rows(start, stop, order, lower, upper, parts, hits, rays, grid, least):  # type: ignore[no-untyped-def]
     ends, directions, errors, map_error = hits
-    origin, angles, turns, lengths, numbers, margin = rays
+    origins, angles, turns, lengths, numbers, margins = rays
     resolution, bordered, table, upwards, rightwards = grid
     flat = bordered.reshape(-1)[BORDER:]
     stride = np.uint64(bordered.shape[1])
     row_limit, column_limit = np.int32(table.shape[0] - 1), np.int32(table.shape[1] - 1)
     count = len(angles)
     headings = np.empty((count, 5))
+    lasers = np.empty((count, 4))
     bounds = np.empty((2, len(ends), 4))
     barred = np.empty(len(ends), dtype=np.bool_)
     theta_lower, theta_upper = np.nan, np.nan
-    laser = (0.0, 0.0, 0.0, 0.0)
     for at in range(start, stop):
         row = order[at]
         if lower[row, 2] != theta_lower or upper[row, 2] != theta_upper:
@@ -182,9 +182,10 @@ def _block_rows(start, stop, order, lower, upper, parts, hits, rays, grid, least
             relative_bounds(middle, theta_upper, ends, directions, errors, map_error, resolution, bounds[1])
             sl, cl = sincos(theta_lower)
             su, cu = sincos(theta_upper)
-            ul, uu, vl, vu = turn_point(origin[0], origin[1], sl, cl, su, cu)
-            laser = (ul / resolution - MARGIN, uu / resolution + MARGIN, vl / resolution - MARGIN, vu / resolution + MARGIN)
             for i in range(count):
+                ul, uu, vl, vu = turn_point(origins[i, 0], origins[i, 1], sl, cl, su, cu)
+                lasers[i, 0], lasers[i, 1] = ul / resolution - MARGIN, uu / resolution + MARGIN
+                lasers[i, 2], lasers[i, 3] = vl / resolution - MARGIN, vu / resolution + MARGIN
                 headings[i, 1], headings[i, 0] = sincos(theta_lower + angles[i] - turns[i] - _SLACK)
                 headings[i, 3], headings[i, 2] = sincos(theta_upper + angles[i] + turns[i] + _SLACK)
                 headings[i, 4] = lengths[i] / resolution - MARGIN
@@ -199,7 +200,8 @@ def _block_rows(start, stop, order, lower, upper, parts, hits, rays, grid, least
         alone = found = 0
         for i in range(count):
             ray = (headings[i, 0], headings[i, 1], headings[i, 2], headings[i, 3], headings[i, 4])
-            if blocked(box, laser, ray, margin / resolution, table, upwards, rightwards):
+            laser = (lasers[i, 0], lasers[i, 1], lasers[i, 2], lasers[i, 3])
+            if blocked(box, laser, ray, margins[i] / resolution, table, upwards, rightwards):
                 found += 1
                 if numbers[i] >= 0:
                     barred[numbers[i]] = True
@@ -280,7 +282,7 @@ def count_blocked(
         return least
     order = group_rows(boxes.lower[:, 2], boxes.upper[:, 2])
     hits = (beams.ends, beams.directions, beams.errors, map_error_m)
-    evidence = (rays.origin, rays.angles, rays.turns, rays.lengths, rays.beams, rays.margin_m)
+    evidence = (rays.origins, rays.angles, rays.turns, rays.lengths, rays.beams, rays.margins)
     grid = (occupied.resolution, occupied.bordered, occupied.table, bits.upwards, bits.rightwards)
     run(_block_rows, len(boxes), order, boxes.lower, boxes.upper, parts, hits, evidence, grid, counted, minimum=16)
     return np.minimum(counted, np.iinfo(np.int16).max).astype(np.int16)

@@ -14,24 +14,24 @@ class Rays:
 
     Parameters
     ----------
-    origin
-        Position of the laser in the base frame (m), float64 of shape (2,).
+    origins
+        Position of the laser in the base frame at each ray (m), float64 of shape (n, 2).
     angles, turns
         Direction of each ray in the base frame, plus or minus its turn (rad), float64 of shape (n,). Rounding is included.
     lengths
         How far nothing stands (m), float64 of shape (n,); rounded down.
     beams
         The number of the beam, among those of `Beams`, that ended in the same reading; −1 for one without return. int64 of shape (n,).
-    margin_m
-        A ray is blocked only if all its neighbours within this distance are.
+    margins
+        A ray is blocked only if all its neighbours within this distance (m) are, float64 of shape (n,).
     """
 
-    origin: FloatArray
+    origins: FloatArray
     angles: FloatArray
     turns: FloatArray
     lengths: FloatArray
     beams: npt.NDArray[np.int64]
-    margin_m: float
+    margins: FloatArray
 
     def __len__(self) -> int:
         return len(self.angles)

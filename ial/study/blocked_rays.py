@@ -20,10 +20,12 @@ def blocked_rays(rays: Rays, pose: Pose, grid: OccupancyGrid) -> npt.NDArray[np.
     rays a tenth of a cell apart are cast, for the middle and both ends of the bearing; one that slips through between them may be taken for
     blocked, never the other way round.
     """
-    count = 2 * max(1, math.ceil(rays.margin_m / grid.resolution * _PER_CELL)) + 1
-    aside = rays.margin_m * np.linspace(-1.0, 1.0, count)
-    laser = pose @ Pose(float(rays.origin[0]), float(rays.origin[1]))
+    count = 2 * max(1, math.ceil(rays.margins.max(initial=0.0) / grid.resolution * _PER_CELL)) + 1
+    aside = rays.margins[:, None, None] * np.linspace(-1.0, 1.0, count)
+    c, s = math.cos(pose.theta), math.sin(pose.theta)
+    laser_x = (pose.x + c * rays.origins[:, 0] - s * rays.origins[:, 1])[:, None, None]
+    laser_y = (pose.y + s * rays.origins[:, 0] + c * rays.origins[:, 1])[:, None, None]
     angle = pose.theta + rays.angles[:, None, None] + rays.turns[:, None, None] * np.array([-1.0, 0.0, 1.0])[:, None]
-    x, y = laser.x - aside * np.sin(angle), laser.y + aside * np.cos(angle)
+    x, y = laser_x - aside * np.sin(angle), laser_y + aside * np.cos(angle)
     distance = cast_rays(grid.mask(OCCUPIED), grid.resolution, x, y, np.broadcast_to(angle, x.shape), float(rays.lengths.max(initial=0.0)))
     return np.asarray((distance <= rays.lengths[:, None, None]).all(axis=(1, 2)))

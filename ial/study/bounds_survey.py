@@ -81,9 +81,9 @@ class BoundsSurvey:
         if beams.rays is not None:
             blocked = blocked_rays(beams.rays, pose, self.grid)
             numbers = beams.rays.beams[blocked]
-            laser = turn @ beams.rays.origin + (pose.x, pose.y)
+            laser = beams.rays.origins[blocked] @ turn.T + (pose.x, pose.y)
             angles = pose.theta + beams.rays.angles[blocked]
-            met = cast_rays(self._mask, self.grid.resolution, np.full(len(angles), laser[0]), np.full(len(angles), laser[1]), angles)
+            met = cast_rays(self._mask, self.grid.resolution, laser[:, 0], laser[:, 1], angles)
             along = np.stack([np.cos(angles), np.sin(angles)], axis=1)
             failures.count(failures.passed, (laser + met[:, None] * along)[np.isfinite(met)])
             bad[numbers[numbers >= 0]] = True

@@ -24,6 +24,7 @@ CONFIG = st.builds(
     precision=st.builds(Precision, st.floats(1e-3, 1.0), st.floats(1e-3, 1.0)),
     max_boxes=st.integers(1, 2**40),
     max_beams=st.integers(1, 1000),
+    deskew=st.booleans(),
     robot_radius_m=st.floats(0.0, 5.0),
     check_every=st.integers(0, 1000),
     domain=st.sampled_from(["free", "free_or_unknown"]),

@@ -23,7 +23,8 @@ def canonical(reading: Reading) -> Canonical:
     scan, odometry = reading.scan, reading.odometry
     numbers = (scan.angle_min, scan.angle_increment, scan.range_min, scan.range_max, scan.time_increment, *vars(scan.mounting).values())
     pose = (odometry.x, odometry.y, odometry.pose, odometry.error_m, odometry.error_rad)
-    return (reading.stamp_ns, scan.ranges.tobytes(), numbers, pose, scan.frame_id)
+    end = None if reading.end is None else (reading.end.x, reading.end.y, reading.end.pose, reading.end.error_m, reading.end.error_rad)
+    return (reading.stamp_ns, scan.ranges.tobytes(), numbers, pose, scan.frame_id, end)
 
 
 @pytest.fixture
@@ -42,7 +43,8 @@ def synthetic_readings(count: int = 12, mounting: Mounting | None = None) -> Ite
             index * SECOND // 3, ranges, -2.0, 0.1, 0.05, 10.0, time_increment=1e-4, mounting=mounting or Mounting(0.2, -0.1, 0.3)
         )
         pose = Pose(*random.uniform(-40.0, 40.0, 2).tolist(), float(random.uniform(-math.pi, math.pi)))
-        yield Reading(index, scan.stamp_ns, Odometry.of(pose), scan)
+        end = Odometry.of(pose @ Pose(0.01, 0.0, 0.02), 0.001, 0.002) if index < count - 1 else None  # a recording ends with a scan
+        yield Reading(index, scan.stamp_ns, Odometry.of(pose), scan, end)
 
 
 class Bag:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -97,3 +98,27 @@ def test_odometry_errors_widen_the_motion(readings: Maker) -> None:
     assert exact is not None
     assert wider is not None
     assert (wider.upper - wider.lower >= exact.upper - exact.lower + [1.0, 1.0, 0.2]).all()
+
+
+def test_the_motion_during_a_scan_comes_from_the_odometry_at_its_last_beam(readings: Maker) -> None:
+    recorded = list(readings(4))
+    for step, reading in zip(steps(InMemoryRecording("swept", recorded), BOUNDS), recorded, strict=True):
+        if reading.end is None:
+            assert step.scan.sweep is None
+        else:
+            sweep = step.scan.sweep
+            assert sweep is not None
+            assert (sweep.x, sweep.y, sweep.theta) == pytest.approx((0.01, 0.0, 0.02), abs=1e-9)
+            assert step.scan.end_ns == reading.stamp_ns + round(39 * 1e9 * float(np.float32(1e-4)))
+
+
+def test_steps_go_on_behind_a_mark(recording: InMemoryRecording) -> None:
+    whole = list(steps(recording, BOUNDS, 1, None, 3))
+    rest = list(steps(recording, BOUNDS, 1, None, 3, after=whole[1].mark))
+    assert [step.index for step in rest] == [step.index for step in whole[2:]]
+    for one, other in zip(rest, whole[2:], strict=True):
+        assert one.motion is not None
+        assert other.motion is not None
+        assert np.array_equal(one.motion.lower, other.motion.lower)
+    live = InMemoryRecording("live", [replace(reading, index=number) for number, reading in enumerate(list(recording.readings())[8:])])
+    assert [step.index for step in steps(live, BOUNDS, after=whole[1].mark)] == [5, 6, 7, 8]
