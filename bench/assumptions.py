@@ -33,6 +33,7 @@ Where all assumptions hold, the answer holds the truth and there is no alarm: an
 the assumption is that the truth has no more bad beams than the reported number. *Silently wrong*: localized at a place that does not hold
 the truth. *Wrong but told*: the truth is not in the answer, which is ambiguous, lost or blind. Shares are of all scans."""
 BEAMS = 180
+STRETCH = 1.02
 LIDAR = Lidar(beams=BEAMS, angle_min=-math.pi, angle_increment=2.0 * math.pi / BEAMS, range_max=25.0)
 DEFAULT = LocalizerConfig()
 
@@ -94,7 +95,7 @@ def changed(world: OccupancyGrid, how: str, seed: int) -> OccupancyGrid:
         return floor_plan(15.0, 12.0, 0.05, seed + 1000)
     cells = world.cells.copy()
     if how == "stretched":
-        return OccupancyGrid(cells, world.resolution * 1.02, world.origin)
+        return OccupancyGrid(cells, world.resolution * STRETCH, world.origin)
     if how == "furniture":
         random = np.random.default_rng(seed)
         block = 30  # cells
@@ -113,6 +114,8 @@ def watch(case: Case, config: LocalizerConfig, seed: int, scans: int) -> tuple[C
     wrong_since: int | None = None
     for step, estimate in localize(run.recording, Localizer(grid, config=config)):
         truth = run.truth.at(step.stamp_ns)
+        if truth is not None and case.map_change == "stretched":
+            truth = Pose(STRETCH * truth.x, STRETCH * truth.y, truth.theta)  # every place has moved with the walls around it
         right = truth is not None and estimate.poses.contains(grid.pose_to_grid(truth))
         alarm = estimate.status in ("lost", "blind")
         counts["scans"] += 1
