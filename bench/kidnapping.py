@@ -110,7 +110,7 @@ def draw(source: Source, kind: str, count: int) -> list[list[Kidnapping]]:
             at = jumps[-1].to + source.start + every * APART
             to = every * int(random.integers(0, last - 4 * AFTER))
             jumps.append(Kidnapping(at, to))
-        if all(jump.at < len(readings) - every and fits(jump.at, jump.to) for jump in jumps):
+        if all(jump.at < len(readings) - every and jump.to != jump.at + 1 and fits(jump.at, jump.to) for jump in jumps):
             found.append(jumps)
         if len(found) == count:
             break

@@ -7,7 +7,7 @@ that a mapper (GMapping's gfs) has corrected, each scan is followed by an ODOM l
 
 import math
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -109,18 +109,18 @@ class CarmenLog(Reader):
     ----------
     path
         The log, plain or gzip.
-    scan_topic
-        ``FLASER`` or ``ROBOTLASER1``; needed only if the log holds both.
+    scan_topics
+        ``FLASER`` or ``ROBOTLASER1``; needed only if the log holds both, which are then the same lidar twice.
     laser_pose
         Where the laser sits, ``T_base_laser``; without it, as the first scan line's two poses say.
     """
 
     format = "CARMEN log"
 
-    def __init__(self, path: Path, scan_topic: str | None = None, laser_pose: Pose | None = None) -> None:
+    def __init__(self, path: Path, scan_topics: Sequence[str] = (), laser_pose: Pose | None = None) -> None:
         super().__init__(str(path))
         self._path = path
-        self._scan_topic = scan_topic
+        self._scan_topics = scan_topics
         self._mounting = None if laser_pose is None else Mounting(laser_pose.x, laser_pose.y, laser_pose.theta)
         self._surveyed: _Survey | None = None
 
@@ -158,11 +158,13 @@ class CarmenLog(Reader):
     def _keyword(self) -> bytes:
         """Return the kind of line that holds the scans."""
         found = [keyword for keyword in _PARSERS if self._survey().keywords[keyword.decode()]]
-        if self._scan_topic is not None:
-            if self._scan_topic.encode() not in found:
+        if len(self._scan_topics) > 1:
+            raise RecordingError(f"{self.name}: a CARMEN log is read as that of one lidar; give --scan-topic once")
+        for named in self._scan_topics:
+            if named.encode() not in found:
                 names = ", ".join(keyword.decode() for keyword in found) or "none"
-                raise RecordingError(f"{self.name}: no {self._scan_topic} lines; the kinds of scan lines in it are: {names}")
-            return self._scan_topic.encode()
+                raise RecordingError(f"{self.name}: no {named} lines; the kinds of scan lines in it are: {names}")
+            return named.encode()
         if len(found) > 1:
             raise RecordingError(
                 f"{self.name}: has scans in FLASER and in ROBOTLASER1 lines; choose with --scan-topic FLASER or --scan-topic ROBOTLASER1"

@@ -1,6 +1,5 @@
 """`convert`: writes any recording as a ROS bag or as JSON lines, which read back as the very same steps."""
 
-from itertools import chain
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
@@ -9,6 +8,7 @@ import numpy as np
 from ial.datasets import ros_messages as ros
 from ial.datasets.odometry import Odometry
 from ial.datasets.recording import Reading, Recording
+from ial.datasets.scan import Mounting
 from ial.datasets.scan_stream import odometry_line, scan_line
 from ial.datasets.tf_buffer import ODOM_FRAME
 from ial.errors import OutputError
@@ -22,9 +22,9 @@ BASE = "base_link"
 def convert(recording: Recording, path: str | Path) -> int:
     """Write a recording as ``.mcap`` (ROS 2) or ``.bag`` (ROS 1) and return the number of scans.
 
-    Topics: ``/scan``; ``/odom``, one message at each scan's stamp, and one at its last beam where that has a time of its own;
-    ``/tf_static`` with the mounting; ``/tf`` with odom → base_link; and, where odometry was interpolated, ``/odom_error``. Scans that are
-    skipped when the recording is read are not written.
+    Topics: ``/scan``, for all lidars; ``/odom``, one message at each scan's stamp, and one at its last beam where that has a time of its
+    own; ``/tf_static`` with the mounting of each lidar; ``/tf`` with odom → base_link; and, where odometry was interpolated,
+    ``/odom_error``. Scans that are skipped when the recording is read are not written.
 
     Parameters
     ----------
@@ -38,18 +38,19 @@ def convert(recording: Recording, path: str | Path) -> int:
     RecordingError
         If the recording cannot be read.
     OutputError
-        If the file cannot be written, or if the laser's mounting changes within the recording.
+        If the file cannot be written, or if the mounting of a laser changes within the recording.
     """
     from ial.datasets.bag_writer import BagWriter  # rosbags is slow to import
 
-    readings = recording.readings()
-    first = next(readings)
+    mountings: dict[str, Mounting] = {}
     count = 0
     with BagWriter(path) as bag:
-        _write_mounting(bag, first)
-        for reading in chain([first], readings):
-            if reading.scan.mounting != first.scan.mounting or reading.scan.frame_id != first.scan.frame_id:
-                raise OutputError(f"{path}: the laser's frame or mounting changes at scan {reading.index}, which one bag cannot say")
+        for reading in recording.readings():
+            frame, mounting = reading.scan.frame_id, reading.scan.mounting
+            if frame not in mountings:
+                _write_mounting(bag, reading)
+            if mountings.setdefault(frame, mounting) != mounting:
+                raise OutputError(f"{path}: the mounting of the laser {frame} changes at scan {reading.index}, which one bag cannot say")
             _write_odometry(bag, reading.odometry, reading.stamp_ns)
             _write_scan(bag, reading)
             if reading.end is not None:

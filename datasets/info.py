@@ -44,8 +44,8 @@ class RecordingInfo:
         The smallest and the largest hit, metres.
     frames
         The frames in use, by role.
-    mounting
-        Where the lidar sits on the robot.
+    mountings
+        Where each lidar sits on the robot, by the name of its frame.
     missing
         What stands in the way of localizing with it, each with what to do.
     """
@@ -67,7 +67,7 @@ class RecordingInfo:
     range_max: float | None = None
     range_seen_m: tuple[float, float] | None = None
     frames: dict[str, str] = field(default_factory=dict)
-    mounting: Mounting | None = None
+    mountings: dict[str, Mounting] = field(default_factory=dict)
     missing: list[str] = field(default_factory=list)
 
     def as_dict(self) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """`open_recording`: chooses the reader by what the file holds, not by its name."""
 
+from collections.abc import Sequence
 from itertools import islice
 from pathlib import Path
 
@@ -17,7 +18,7 @@ _KNOWN = "a ROS 1 .bag, a ROS 2 folder, .db3 or .mcap, a CARMEN log (plain or .g
 
 
 def open_recording(
-    path: str | Path, scan_topic: str | None = None, odom_topic: str | None = None, laser_pose: Pose | None = None
+    path: str | Path, scan_topics: Sequence[str] = (), odom_topic: str | None = None, laser_pose: Pose | None = None
 ) -> Recording:
     """Open a recording of any known format.
 
@@ -27,8 +28,9 @@ def open_recording(
     ----------
     path
         A ROS 1 ``.bag``; a ROS 2 bag folder, ``.db3`` or ``.mcap``; a CARMEN log, a log of L and O lines, or JSON lines, plain or gzip.
-    scan_topic
-        The topic of the scans; needed only if there are several.
+    scan_topics
+        The topics of the scans; needed only if there are several. Several of them are several lidars of one robot, whose scans follow one
+        another by their stamps.
     odom_topic
         The topic of the odometry (``/tf`` takes it from tf); needed only if there are several.
     laser_pose
@@ -42,7 +44,7 @@ def open_recording(
     path = Path(path)
     try:
         if path.is_dir():
-            return _open_folder(path, scan_topic, odom_topic, laser_pose)
+            return _open_folder(path, scan_topics, odom_topic, laser_pose)
         with path.open("rb") as file:
             head = file.read(16)
     except FileNotFoundError:
@@ -52,19 +54,19 @@ def open_recording(
     if not head:
         raise RecordingError(f"{path}: the file is empty; copy the recording again")
     if head.startswith(_ROS_MAGIC):
-        return _open_ros(path, scan_topic, odom_topic, laser_pose)
-    return _open_text(path, scan_topic, laser_pose)
+        return _open_ros(path, scan_topics, odom_topic, laser_pose)
+    return _open_text(path, scan_topics, laser_pose)
 
 
-def _open_ros(path: Path, scan_topic: str | None, odom_topic: str | None, laser_pose: Pose | None) -> Recording:
+def _open_ros(path: Path, scan_topics: Sequence[str], odom_topic: str | None, laser_pose: Pose | None) -> Recording:
     from ial.datasets.ros import RosBag  # rosbags is slow to import
 
-    return RosBag(path, scan_topic, odom_topic, laser_pose)
+    return RosBag(path, scan_topics, odom_topic, laser_pose)
 
 
-def _open_folder(path: Path, scan_topic: str | None, odom_topic: str | None, laser_pose: Pose | None) -> Recording:
+def _open_folder(path: Path, scan_topics: Sequence[str], odom_topic: str | None, laser_pose: Pose | None) -> Recording:
     if (path / "metadata.yaml").exists():
-        return _open_ros(path, scan_topic, odom_topic, laser_pose)
+        return _open_ros(path, scan_topics, odom_topic, laser_pose)
     if any(file.suffix in (".db3", ".mcap") for file in path.iterdir()):
         raise RecordingError(
             f"{path}: a ROS 2 bag without metadata.yaml; run `ros2 bag reindex {path}`, or give the .db3 or .mcap file itself"
@@ -72,7 +74,7 @@ def _open_folder(path: Path, scan_topic: str | None, odom_topic: str | None, las
     raise RecordingError(f"{path}: a folder, but not a ROS 2 bag (no metadata.yaml); give {_KNOWN}")
 
 
-def _open_text(path: Path, scan_topic: str | None, laser_pose: Pose | None) -> Recording:
+def _open_text(path: Path, scan_topics: Sequence[str], laser_pose: Pose | None) -> Recording:
     from ial.datasets.beesoft import BeesoftLog
     from ial.datasets.carmen import CarmenLog
     from ial.datasets.scan_stream import ScanStream
@@ -86,7 +88,7 @@ def _open_text(path: Path, scan_topic: str | None, laser_pose: Pose | None) -> R
         if not keyword or keyword[0].startswith(b"#"):
             continue
         if keyword[0] in _CARMEN:
-            return CarmenLog(path, scan_topic, laser_pose)
+            return CarmenLog(path, scan_topics, laser_pose)
         if keyword[0] in _BEESOFT:
             return BeesoftLog(path, laser_pose)
         break

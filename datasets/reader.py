@@ -44,7 +44,8 @@ class Record:
 class Reader(ABC):
     """A recording in a file: a subclass yields its records, this class makes them canonical readings.
 
-    A stamp that does not increase becomes its predecessor's plus 1 ms and is counted; a scan that cannot be used is counted by its reason.
+    A stamp that does not increase becomes its predecessor's plus 1 ms and is counted; but the scan of another lidar at the same stamp
+    follows after 1 ns. A scan that cannot be used is counted by its reason.
 
     Parameters
     ----------
@@ -83,11 +84,15 @@ class Reader(ABC):
         self.repaired.clear()
         yielded = 0
         last: int | None = None
+        recorded: tuple[int | None, set[str]] = None, set()  # the last stamp in the file, and the lidars that had it
         for index, record in enumerate(self._records()):
-            stamp = record.stamp_ns
+            stamp, lidar = record.stamp_ns, record.scan.get("frame_id", "")
             if stamp is not None and last is not None and stamp <= last:
-                stamp = last + _MILLISECOND
-                self.repaired["stamp did not increase: set to its predecessor's plus 1 ms"] += 1
+                together = stamp == recorded[0] and lidar not in recorded[1]
+                stamp = last + (1 if together else _MILLISECOND)
+                if not together:
+                    self.repaired["stamp did not increase: set to its predecessor's plus 1 ms"] += 1
+            recorded = record.stamp_ns, {lidar, *(recorded[1] if record.stamp_ns == recorded[0] else ())}
             last = last if stamp is None else stamp
             scan = self._scan(record, stamp)
             if isinstance(scan, str):

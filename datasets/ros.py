@@ -1,15 +1,15 @@
 """`RosBag`: recordings of ROS 1 and ROS 2."""
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ial.datasets.bag_file import BagFile
 from ial.datasets.info import Topic
-from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_buffer import OdometryBuffer
+from ial.datasets.order import in_order_of_stamps
 from ial.datasets.reader import Reader, Record
 from ial.datasets.ros_frames import BASE_FRAMES, frame_name, mounting_of, odometry_from_tf, odometry_of, stamp_of, take_transforms
 from ial.datasets.scan import Mounting
@@ -42,8 +42,8 @@ class RosBag(Reader):
     ----------
     path
         The file or folder.
-    scan_topic
-        The LaserScan topic; needed only if there are several.
+    scan_topics
+        The LaserScan topics; needed only if there are several. Several of them are several lidars, each with its own mounting.
     odom_topic
         The Odometry topic, needed only if there are several; ``/tf`` takes the transform odom → base_link instead.
     laser_pose
@@ -52,10 +52,10 @@ class RosBag(Reader):
 
     format = "ROS bag"
 
-    def __init__(self, path: Path, scan_topic: str | None = None, odom_topic: str | None = None, laser_pose: Pose | None = None) -> None:
+    def __init__(self, path: Path, scan_topics: Sequence[str] = (), odom_topic: str | None = None, laser_pose: Pose | None = None) -> None:
         super().__init__(str(path))
         self._path = path
-        self._scan_topic = scan_topic
+        self._scan_topics = scan_topics
         self._odom_topic = odom_topic
         self._mounting = None if laser_pose is None else Mounting(laser_pose.x, laser_pose.y, laser_pose.theta)
         self._used_frames: dict[str, str] = {}
@@ -70,17 +70,33 @@ class RosBag(Reader):
 
     def _records(self) -> Iterator[Record]:
         with BagFile(self._path) as bag:
-            topic = self._choose(bag, SCAN_TYPE, self._scan_topic, "--scan-topic")
-            if topic is None:
-                raise RecordingError(f"{self.name}: no topic with laser scans ({SCAN_TYPE}); its topics are: {_listed(bag.topics)}")
+            topics = self._choose_scans(bag)
             robot = self._robot(bag)
             self._used_frames["base"] = robot.base
-            mountings: dict[str, Mounting] = {}
-            for _, message in bag.messages([topic]):
-                frame = frame_name(message.header.frame_id)
-                if frame not in mountings:
-                    mountings[frame] = self._mounting or mounting_of(robot.transforms, robot.base, frame, self.name)
-                yield _record(message, robot.odometry, mountings[frame], frame)
+            yield from in_order_of_stamps(self._scans(bag, topics, robot), topics)
+
+    def _scans(self, bag: BagFile, topics: Collection[str], robot: _Robot) -> Iterator[tuple[str, Record]]:
+        """Yield the scans in the order of recording, each with its topic."""
+        mountings: dict[str, Mounting] = {}
+        for topic, message in bag.messages(topics):
+            frame = frame_name(message.header.frame_id)
+            if frame not in mountings:
+                if self._mounting is not None and mountings:
+                    raise RecordingError(
+                        f"{self.name}: its scans come from several lidars ({', '.join(mountings)}, {frame}), which --laser-pose cannot "
+                        "place; leave it out and let tf say where they sit, or choose one of them with --scan-topic"
+                    )
+                mountings[frame] = self._mounting or mounting_of(robot.transforms, robot.base, frame, self.name)
+            yield topic, _record(message, robot.odometry, mountings[frame], frame)
+
+    def _choose_scans(self, bag: BagFile) -> list[str]:
+        """Return the topics of the scans."""
+        named: list[str | None] = [*dict.fromkeys(self._scan_topics)]
+        chosen = [self._choose(bag, SCAN_TYPE, name, "--scan-topic") for name in named or [None]]
+        topics = [topic for topic in chosen if topic is not None]
+        if not topics:
+            raise RecordingError(f"{self.name}: no topic with laser scans ({SCAN_TYPE}); its topics are: {_listed(bag.topics)}")
+        return topics
 
     def _choose(self, bag: BagFile, kind: str, named: str | None, option: str) -> str | None:
         """Return the topic of a type: the one that was named, or the only one, or None if there is none."""
@@ -92,7 +108,9 @@ class RosBag(Reader):
             return named
         found = bag.of_type(kind)
         if len(found) > 1:
-            raise RecordingError(f"{self.name}: several topics of type {kind}: {', '.join(found)}; choose one with {option} {found[0]}")
+            also = "; several lidars are used together if each is named" if kind == SCAN_TYPE else ""
+            names = ", ".join(found)
+            raise RecordingError(f"{self.name}: several topics of type {kind}: {names}; choose one with {option} {found[0]}{also}")
         return found[0] if found else None
 
     def _robot(self, bag: BagFile) -> _Robot:
@@ -102,28 +120,24 @@ class RosBag(Reader):
         error_topics = [name for name in bag.of_type(ERROR_TYPE) if name == ERROR_TOPIC]
         wanted = {*bag.of_type(*TRANSFORM_TYPES), *error_topics, *([topic] if topic else [])}
         transforms = TransformBuffer()
-        samples: dict[int, Odometry] = {}
-        errors: dict[int, tuple[float, float]] = {}
+        odometry = OdometryBuffer()
         base = ""
         for name, message in bag.messages(wanted):
             if name == topic:
-                self._take_odometry(samples, message)
+                self._take_odometry(odometry, message)
                 base = base or frame_name(message.child_frame_id)
             elif name == ERROR_TOPIC:
-                errors[stamp_of(message)] = (message.vector.x, message.vector.z)
+                odometry.limit(stamp_of(message), message.vector.x, message.vector.z)
             else:
                 take_transforms(transforms, message)
         if topic is None:
             return _Robot(transforms, *odometry_from_tf(transforms, self.name))
-        for stamp, (error_m, error_rad) in errors.items():
-            if stamp in samples:
-                samples[stamp] = replace(samples[stamp], error_m=error_m, error_rad=error_rad)
-        return _Robot(transforms, OdometryBuffer(samples.items()), _base_frame(base, transforms))
+        return _Robot(transforms, odometry, _base_frame(base, transforms))
 
-    def _take_odometry(self, samples: dict[int, Odometry], message: Any) -> None:
+    def _take_odometry(self, buffer: OdometryBuffer, message: Any) -> None:
         odometry = odometry_of(message)
         if odometry.valid:
-            samples[stamp_of(message)] = odometry
+            buffer.add(stamp_of(message), odometry)
         else:
             self.repaired["odometry message that is not finite: left out"] += 1
 

@@ -46,10 +46,9 @@ def odometry_from_tf(buffer: TransformBuffer, name: str) -> tuple[OdometryBuffer
         If tf has no such edge.
     """
     for base in BASE_FRAMES:
-        samples = buffer.odometry(base)
-        if samples:
-            poses = [(stamp, Odometry(*at.translation[:2], *at.quaternion[2:])) for stamp, at in samples]
-            return OdometryBuffer((stamp, odometry) for stamp, odometry in poses if odometry.valid), base
+        odometry = buffer.odometry(base)
+        if odometry is not None:
+            return odometry, base
     edges = ", ".join(f"{parent} → {child}" for parent, child in buffer.edges[:20]) or "none"
     raise RecordingError(
         f"{name}: no odometry: there is no nav_msgs/Odometry topic, and tf has no transform odom → base_link (its transforms: {edges}); "

@@ -13,7 +13,8 @@ Each line is an object with one key.
     (REP-117).
 
 A stamp is a time in seconds; as a text it keeps its nanoseconds. The odometry of a scan is looked up at its stamp by the one rule of
-`OdometryBuffer`, so a scan waits until odometry as late as itself has arrived.
+`OdometryBuffer`, so a scan waits until odometry as late as itself has arrived. Several lidars tell themselves apart by ``frame_id``; their
+scans stand in the order of their stamps.
 """
 
 import json
@@ -60,6 +61,7 @@ class ScanStream(Reader):
     def __init__(self, source: Path | Iterable[bytes], name: str | None = None, laser_pose: Pose | None = None) -> None:
         super().__init__(str(source) if name is None and isinstance(source, Path) else name or "stream")
         self._source = source
+        self._placed: dict[str, object] = {}  # the lidar that `laser_pose` is of
         self._mounting = None if laser_pose is None else Mounting(laser_pose.x, laser_pose.y, laser_pose.theta)
 
     def _records(self) -> Iterator[Record]:
@@ -103,6 +105,8 @@ class ScanStream(Reader):
         laser = {"x": 0.0, "y": 0.0, "yaw": 0.0, "upside_down": False, **content.get("laser", {})}
         if len(laser) > 4 or not isinstance(laser["upside_down"], bool):
             raise RecordingError("scan line whose laser has other keys than x, y, yaw, and upside_down: true or false")
+        if self._mounting is not None and content.get("frame_id") != self._placed.setdefault("frame_id", content.get("frame_id")):
+            raise RecordingError("scan of a second lidar, which --laser-pose cannot place")
         mounting = self._mounting or Mounting(float(laser["x"]), float(laser["y"]), float(laser["yaw"]), laser["upside_down"])
         scan = {name: float(value) for name, value in content.items() if name in _NUMBERS}
         ranges = np.array([np.nan if value is None else float(value) for value in content["ranges"]], dtype=np.float32)

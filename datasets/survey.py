@@ -31,10 +31,9 @@ def _fill(info: RecordingInfo, readings: Iterator[Reading]) -> None:
         scan = reading.scan
         if first is None or previous is None:
             first = previous = reading
-            info.mounting = scan.mounting
             info.angle_min, info.angle_increment = scan.angle_min, scan.angle_increment
             info.range_min, info.range_max = scan.range_min, scan.range_max
-            info.frames = {**info.frames, "laser": scan.frame_id}
+        info.mountings.setdefault(scan.frame_id, scan.mounting)
         info.scans += 1
         beams.add(len(scan))
         kinds = scan.classes()
@@ -46,6 +45,8 @@ def _fill(info: RecordingInfo, readings: Iterator[Reading]) -> None:
         info.path_m += math.hypot(now.x - before.x, now.y - before.y)
         previous = reading
         info.duration_s = 1e-9 * (reading.stamp_ns - first.stamp_ns) or None
+    if info.mountings:
+        info.frames = {**info.frames, "laser": ", ".join(info.mountings)}
     info.beams, info.beam_classes = sorted(beams), dict(classes)
     info.scan_rate_hz = (info.scans - 1) / info.duration_s if info.duration_s else None
     if not classes["hit"]:

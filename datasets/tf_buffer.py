@@ -7,6 +7,9 @@ import math
 from collections import deque
 from dataclasses import dataclass
 
+from ial.datasets.odometry import Odometry
+from ial.datasets.odometry_buffer import OdometryBuffer
+
 ODOM_FRAME = "odom"
 
 Vector = tuple[float, float, float]
@@ -78,7 +81,7 @@ class TransformBuffer:
     def __init__(self) -> None:
         self._first: dict[tuple[str, str], Transform] = {}
         self._moving: set[tuple[str, str]] = set()
-        self._samples: dict[str, list[tuple[int, Transform]]] = {}
+        self._odometry: dict[str, OdometryBuffer] = {}
 
     def add(self, parent: str, child: str, stamp_ns: int, transform: Transform) -> None:
         """Take a sample of the edge ``T_parent_child``; one that is not finite is left out."""
@@ -87,7 +90,10 @@ class TransformBuffer:
         if self._first.setdefault((parent, child), transform) != transform:
             self._moving.add((parent, child))
         if parent == ODOM_FRAME:
-            self._samples.setdefault(child, []).append((stamp_ns, transform))
+            buffer = self._odometry.setdefault(child, OdometryBuffer())
+            odometry = Odometry(*transform.translation[:2], *transform.quaternion[2:])
+            if odometry.valid:
+                buffer.add(stamp_ns, odometry)
 
     @property
     def edges(self) -> list[tuple[str, str]]:
@@ -99,9 +105,9 @@ class TransformBuffer:
         """The names of all frames."""
         return {frame for edge in self._first for frame in edge}
 
-    def odometry(self, base: str) -> list[tuple[int, Transform]]:
-        """Return the (stamp, ``T_odom_base``) samples, in the order of recording."""
-        return self._samples.get(base, [])
+    def odometry(self, base: str) -> OdometryBuffer | None:
+        """Return ``T_odom_base``, projected to the plane; None if there is no such edge."""
+        return self._odometry.get(base)
 
     def _path(self, target: str, source: str) -> list[tuple[str, str]] | None:
         """Return the steps (from, to) that lead from one frame to another, fixed edges only; None if there is no such path."""

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from ial.cli.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, ScanTopic, Semantics, pose_of
+from ial.cli.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, ScanTopics, Semantics, pose_of
 from ial.cli.out_folder import stamped_folder
 from ial.cli.terminal import progress, say, say_json, shown
 from ial.errors import ConfigError
@@ -29,7 +29,7 @@ def bounds(
     start: Annotated[int, typer.Option("--from", metavar="K", min=0, help="The first scan, counted from 0.")] = 0,
     stop: Annotated[int | None, typer.Option("--to", metavar="K", min=1, help="The scan to stop before.")] = None,
     every: Annotated[int, typer.Option(metavar="N", min=1, help="Take every Nth scan.")] = 1,
-    scan_topic: ScanTopic = None,
+    scan_topic: ScanTopics = None,
     odom_topic: OdomTopic = None,
     laser_pose: LaserPose = None,
     semantics: Semantics = "nav2",
@@ -55,7 +55,7 @@ def bounds(
     resolved = resolve(config, settings or ())
     folder_path = out or stamped_folder("bounds-" + ("sample" if recording is None else recording.name))
     with ResultFolder(folder_path) as folder:
-        source, grid = Inputs(recording, map_path, scan_topic, odom_topic, pose_of(laser_pose), semantics, map_topic).open()
+        source, grid = Inputs(recording, map_path, scan_topic or (), odom_topic, pose_of(laser_pose), semantics, map_topic).open()
         survey = BoundsSurvey(grid, resolved)
         if truth is None:
             pairs = own_poses(source, grid, resolved, start, stop, every)

@@ -13,6 +13,7 @@ from ial.lidar.config import LocalizerConfig
 from ial.results.config_record import config_of, config_record
 
 _PREFIX = "IAL_"
+_LIDAR = {"range_error_m": 0.0, "bearing_error_rad": 0.0}
 _OTHER_VARIABLES = ("IAL_THREADS", "IAL_CACHE_DIR", "IAL_DATA", "IAL_ITF1788")
 
 
@@ -146,6 +147,8 @@ def _validated(record: dict[str, Any], source: str) -> LocalizerConfig:
 
 def _as_written(value: Any, default: Any) -> bool:
     """Return whether a value has the very form in which ial writes it: the same keys, and types that need no conversion."""
+    if default == {}:  # the lidars, by name
+        return isinstance(value, dict) and all(isinstance(name, str) and _as_written(each, _LIDAR) for name, each in value.items())
     if isinstance(default, dict):
         return (
             isinstance(value, dict) and list(value) == list(default) and all(_as_written(value[key], each) for key, each in default.items())
@@ -161,7 +164,8 @@ def _fault(fault: Mapping[str, Any], record: Mapping[str, Any]) -> str:
     if fault["type"] == "extra_forbidden":
         level: Any = config_record(LocalizerConfig())
         for part in path[:-1]:
-            level = level[part] or level["translation"]  # what is null by default has the keys of its sibling
+            # What is empty by default has the keys of its sibling, or those of a lidar.
+            level = level.get(part) or level.get("translation") or _LIDAR
         close = difflib.get_close_matches(path[-1], level, 1)
         hint = f"; did you mean '{close[0]}'?" if close else ""
         return f"unknown key '{key}'; allowed are {', '.join(level)}{hint}"

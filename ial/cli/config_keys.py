@@ -58,6 +58,13 @@ class MotionKeys(_Keys):
     sideways: ErrorBoundKeys | None = Field(description="dy alone, m, with all three keys; null: as translation")
 
 
+class LidarKeys(_Keys):
+    """How wrong the readings of one lidar may be."""
+
+    range_error_m: Bound = Field(description="bound of a good beam's range error, m")
+    bearing_error_rad: Bound = Field(description="bound of its bearing error, rad")
+
+
 class SizeKeys(_Keys):
     """A size in space and in heading."""
 
@@ -81,6 +88,7 @@ class ConfigKeys(_Keys):
     bearing_error_rad: Bound = Field(description="bound of its bearing error, rad")
     map_error_m: Bound = Field(description="how far an obstacle may be from its occupied cells, m")
     motion: MotionKeys = Field(description="bounds of the odometry")
+    lidars: dict[str, LidarKeys] = Field(description="other errors of single lidars, by the frame of their scans")
     outliers: Annotated[int | float | Literal["auto"], PlainValidator(_outliers)] = Field(
         description="how many beams may be bad: a number, a fraction, or auto"
     )

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from ial.cli.options import LaserPose, OdomTopic, ScanTopic, pose_of
+from ial.cli.options import LaserPose, OdomTopic, ScanTopics, pose_of
 from ial.cli.terminal import remark, say
 
 
@@ -21,7 +21,7 @@ def convert(
     lines: Annotated[
         Path | None, typer.Option("--jsonl", metavar="FILE", help="Write JSON lines, as `ial stream` reads them; - for standard output.")
     ] = None,
-    scan_topic: ScanTopic = None,
+    scan_topic: ScanTopics = None,
     odom_topic: OdomTopic = None,
     laser_pose: LaserPose = None,
 ) -> None:
@@ -37,7 +37,7 @@ def convert(
     file = target or lines
     if file is not None and file.exists() and path.exists() and file.samefile(path):
         raise OutputError(f"{file}: this is the recording itself; give another file to write to")
-    source = open_recording(path, scan_topic, odom_topic, pose_of(laser_pose))
+    source = open_recording(path, scan_topic or (), odom_topic, pose_of(laser_pose))
     if target is not None:
         count = convert(source, target)
     elif str(lines) == "-":

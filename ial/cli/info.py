@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from ial.cli.options import Json, LaserPose, OdomTopic, RecordingPath, ScanTopic, pose_of
+from ial.cli.options import Json, LaserPose, OdomTopic, RecordingPath, ScanTopics, pose_of
 from ial.cli.terminal import out, remark, say, say_json
 
 if TYPE_CHECKING:
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 def info(
     recording: RecordingPath,
-    scan_topic: ScanTopic = None,
+    scan_topic: ScanTopics = None,
     odom_topic: OdomTopic = None,
     laser_pose: LaserPose = None,
     as_json: Json = False,
@@ -24,7 +24,7 @@ def info(
     """
     from ial.datasets.opening import open_recording
 
-    found = open_recording(recording, scan_topic, odom_topic, pose_of(laser_pose)).info()
+    found = open_recording(recording, scan_topic or (), odom_topic, pose_of(laser_pose)).info()
     if as_json:
         say_json(found.as_dict())
     else:
@@ -68,8 +68,7 @@ def _facts(found: "RecordingInfo") -> list[tuple[str, str]]:
         facts.append(("odometry", f"{found.path_m:.1f} m travelled"))
     if found.frames:
         facts.append(("frames", ", ".join(f"{role}: {frame}" for role, frame in found.frames.items())))
-    if found.mounting is not None:
-        at = found.mounting
+    for frame, at in found.mountings.items():
         hangs = ", upside down" if at.upside_down else ""
-        facts.append(("laser", f"at x {at.x:.3f} m, y {at.y:.3f} m, yaw {at.yaw:.4f} rad on the robot{hangs}"))
+        facts.append(("laser", f"{frame} at x {at.x:.3f} m, y {at.y:.3f} m, yaw {at.yaw:.4f} rad on the robot{hangs}"))
     return facts

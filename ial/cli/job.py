@@ -1,6 +1,7 @@
 """`Job`: what `ial localize` was asked to do, and the doing of it."""
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -43,7 +44,7 @@ class Inputs:
     ----------
     recording, map_path
         Their paths; the embedded sample and its map if both are None.
-    scan_topic, odom_topic, laser_pose
+    scan_topics, odom_topic, laser_pose
         As in `open_recording`.
     semantics, map_topic
         As in `load_map`.
@@ -51,7 +52,7 @@ class Inputs:
 
     recording: Path | None = None
     map_path: Path | None = None
-    scan_topic: str | None = None
+    scan_topics: Sequence[str] = ()
     odom_topic: str | None = None
     laser_pose: Pose | None = None
     semantics: Semantics = "nav2"
@@ -65,7 +66,7 @@ class Inputs:
         RecordingError, MapError
             If one of them cannot be read.
         """
-        recording = open_recording(self.recording or sample_recording_path(), self.scan_topic, self.odom_topic, self.laser_pose)
+        recording = open_recording(self.recording or sample_recording_path(), self.scan_topics, self.odom_topic, self.laser_pose)
         return recording, load_map(self.map_path or sample_map_path(), self.semantics, self.map_topic)
 
 
@@ -174,7 +175,7 @@ class Job:
             "map": _text(inputs.map_path),
             "map_semantics": inputs.semantics,
             "map_topic": inputs.map_topic,
-            "scan_topic": inputs.scan_topic,
+            "scan_topics": list(inputs.scan_topics),
             "odom_topic": inputs.odom_topic,
             "laser_pose": None if at is None else [at.x, at.y, at.theta],
             "static": self.static,

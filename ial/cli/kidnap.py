@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ial.cli.options import LaserPose, OdomTopic, RecordingPath, ScanTopic, pose_of
+from ial.cli.options import LaserPose, OdomTopic, RecordingPath, ScanTopics, pose_of
 from ial.cli.terminal import say
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ def kidnap(
     truth: Annotated[
         Path | None, typer.Option(metavar="TUM", help="The reference trajectory; put together anew and written beside OUT as .tum.")
     ] = None,
-    scan_topic: ScanTopic = None,
+    scan_topic: ScanTopics = None,
     odom_topic: OdomTopic = None,
     laser_pose: LaserPose = None,
 ) -> None:
@@ -39,7 +39,7 @@ def kidnap(
     if truth is not None and truth.exists() and beside.exists() and beside.samefile(truth):
         raise OutputError(f"{beside}: this is the reference itself; give OUT another name, or the new reference would replace it")
     reference = None if truth is None else read_tum(truth)
-    kidnapped, moved = kidnap(open_recording(recording, scan_topic, odom_topic, pose_of(laser_pose)), jumps, reference)
+    kidnapped, moved = kidnap(open_recording(recording, scan_topic or (), odom_topic, pose_of(laser_pose)), jumps, reference)
     count = convert(kidnapped, target)
     say(f"{count} scans written to {target}, {len(jumps)} {'kidnapping' if len(jumps) == 1 else 'kidnappings'}")
     if moved is not None:

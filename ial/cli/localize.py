@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from ial.cli.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, ScanTopic, Semantics, pose_of
+from ial.cli.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, ScanTopics, Semantics, pose_of
 from ial.cli.out_folder import point_latest, stamped_folder
 from ial.cli.report import report
 from ial.cli.terminal import say, say_json, shown
@@ -44,7 +44,7 @@ def localize(
         list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Any other key of the configuration; may be repeated.")
     ] = None,
     dump_config: Annotated[bool, typer.Option("--dump-config", help="Print the resolved configuration and stop.")] = False,
-    scan_topic: ScanTopic = None,
+    scan_topic: ScanTopics = None,
     odom_topic: OdomTopic = None,
     laser_pose: LaserPose = None,
     semantics: Semantics = "nav2",
@@ -75,7 +75,7 @@ def localize(
     from ial.contractors.threads import set_threads
 
     set_threads(threads)
-    inputs = Inputs(recording, map_path, scan_topic, odom_topic, pose_of(laser_pose), semantics, map_topic)
+    inputs = Inputs(recording, map_path, scan_topic or (), odom_topic, pose_of(laser_pose), semantics, map_topic)
     folder = out or stamped_folder("sample" if recording is None else str(recording))
     job = Job(inputs, resolved, folder, start, stop, every, static, truth, truth_frame, initial, initial_radius)
     summary, record = job.run()

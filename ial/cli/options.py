@@ -10,7 +10,10 @@ from ial.pose import Pose
 RecordingPath = Annotated[
     Path, typer.Argument(metavar="RECORDING", help="A ROS 1 .bag, a ROS 2 folder, .db3 or .mcap, or a CARMEN log (plain or .gz).")
 ]
-ScanTopic = Annotated[str | None, typer.Option(metavar="TOPIC", help="The laser scans, if there are several topics.")]
+ScanTopics = Annotated[
+    list[str] | None,
+    typer.Option("--scan-topic", metavar="TOPIC", help="The laser scans, if there are several topics; repeated for several lidars."),
+]
 OdomTopic = Annotated[
     str | None, typer.Option(metavar="TOPIC", help="The odometry, if there are several topics; /tf takes odom → base_link from tf.")
 ]

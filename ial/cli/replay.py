@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from ial.cli.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, ScanTopic, Semantics, pose_of
+from ial.cli.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, ScanTopics, Semantics, pose_of
 from ial.cli.terminal import say, say_json
 from ial.errors import ConfigError
 
@@ -22,7 +22,7 @@ def replay(
     settings: Annotated[
         list[str] | None, typer.Option("--set", metavar="KEY=VALUE", help="Any key of the configuration; may be repeated.")
     ] = None,
-    scan_topic: ScanTopic = None,
+    scan_topic: ScanTopics = None,
     odom_topic: OdomTopic = None,
     laser_pose: LaserPose = None,
     semantics: Semantics = "nav2",
@@ -44,7 +44,7 @@ def replay(
 
     resolved = resolve(config, settings or (), max_seconds=deadline)
     set_threads(threads)
-    source, grid = Inputs(recording, map_path, scan_topic, odom_topic, pose_of(laser_pose), semantics, map_topic).open()
+    source, grid = Inputs(recording, map_path, scan_topic or (), odom_topic, pose_of(laser_pose), semantics, map_topic).open()
     warm(resolved)
     outcome = replay(source, Localizer(grid, config=resolved), speed if realtime else None)
     latencies = outcome.latencies

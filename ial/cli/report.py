@@ -28,6 +28,8 @@ def report(summary: "Summary", record: Mapping[str, Any]) -> Iterator[str]:
         yield f"uninformative: {scans['uninformative']} scans without usable beams, or with as many outliers allowed"
     for limit, count in scans["limited"].items():
         yield f"limited: {count} scans by the limit on {limit}, whose answers are coarser"
+    for frame in scans["lidars_without_scans"]:
+        yield f"the configuration has errors of a lidar {frame}, from which no scan came; its frame is called otherwise"
     yield from _measures(record["measures"])
     yield f"{1e3 * times['median_s']:.1f} ms per scan in the median, {1e3 * times['p99_s']:.1f} ms in 99 %; {times['wall_s']:.2f} s in all"
 

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from ial.cli.options import ConfigPath, Json, LaserPose, OdomTopic, ScanTopic, Semantics, pose_of
+from ial.cli.options import ConfigPath, Json, LaserPose, OdomTopic, ScanTopics, Semantics, pose_of
 from ial.cli.terminal import progress, say, say_json
 from ial.errors import ConfigError
 
@@ -25,7 +25,7 @@ def where(
     start: Annotated[int, typer.Option("--from", metavar="K", min=0, help="The first scan, counted from 0.")] = 0,
     stop: Annotated[int | None, typer.Option("--to", metavar="K", min=1, help="The scan to stop before.")] = None,
     every: Annotated[int, typer.Option(metavar="N", min=1, help="Process every Nth scan.")] = 1,
-    scan_topic: ScanTopic = None,
+    scan_topic: ScanTopics = None,
     odom_topic: OdomTopic = None,
     laser_pose: LaserPose = None,
     semantics: Semantics = "nav2",
@@ -43,7 +43,7 @@ def where(
     from ial.maps.loading import load_map
 
     resolved = resolve(config, settings or ())
-    source = open_recording(recording or sample_recording_path(), scan_topic, odom_topic, pose_of(laser_pose))
+    source = open_recording(recording or sample_recording_path(), scan_topic or (), odom_topic, pose_of(laser_pose))
     atlas = Atlas({name: load_map(path, semantics) for name, path in named(maps).items()}, resolved)
     with Lines(out) as lines:
         for step in progress(steps(source, resolved.bounds.motion, start, stop, every), None, Path(source.name).name):

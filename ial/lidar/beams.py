@@ -66,7 +66,7 @@ def scan_beams(scan: LaserScan, config: LocalizerConfig) -> Beams:
     automatic = config.outliers == "auto"
     outliers = config.max_outliers if config.outliers == "auto" else config.outliers
     scan = scan if config.deskew or scan.sweep is None else dataclasses.replace(scan, sweep=None)
-    beams = select_beams(scan, config.bounds, outliers, config.max_beams, config.free_space)
+    beams = select_beams(scan, config.bounds.of(scan.frame_id), outliers, config.max_beams, config.free_space)
     if not automatic:
         return beams
     margin, jump = (_number(share, len(beams)) for share in (config.outlier_margin, config.max_jump))

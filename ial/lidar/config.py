@@ -1,6 +1,8 @@
 """`LocalizerConfig`: all that the localizer assumes and all that it aims at, in one plain record."""
 
+import dataclasses
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -10,6 +12,24 @@ from ial.errors import ConfigError
 Domain = Literal["free", "free_or_unknown"]
 Recovery = Literal["union", "restart"]
 Outliers = int | float | Literal["auto"]
+
+
+@dataclass(frozen=True)
+class LidarBounds:
+    """How wrong the readings of one lidar may be.
+
+    Parameters
+    ----------
+    range_error_m, bearing_error_rad
+        As in `Bounds`.
+    """
+
+    range_error_m: float
+    bearing_error_rad: float
+
+    def __post_init__(self) -> None:
+        for name in ("range_error_m", "bearing_error_rad"):
+            _check(f"lidars: {name}", getattr(self, name))
 
 
 @dataclass(frozen=True)
@@ -26,16 +46,26 @@ class Bounds:
         The obstacle that a good beam hits lies within this distance of an occupied cell.
     motion
         Error of the odometry between two scans.
+    lidars
+        The errors of lidars that are better or worse than that, by the name of the frame of their scans.
     """
 
     range_error_m: float = 0.03
     bearing_error_rad: float = 0.005
     map_error_m: float = 0.04
     motion: MotionBounds = field(default_factory=MotionBounds)
+    lidars: Mapping[str, LidarBounds] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for name in ("range_error_m", "bearing_error_rad", "map_error_m"):
             _check(name, getattr(self, name))
+
+    def of(self, frame_id: str) -> "Bounds":
+        """Return the bounds with the errors of the lidar whose scans have this frame."""
+        own = self.lidars.get(frame_id)
+        if own is None:
+            return self
+        return dataclasses.replace(self, range_error_m=own.range_error_m, bearing_error_rad=own.bearing_error_rad)
 
 
 @dataclass(frozen=True)

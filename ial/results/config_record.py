@@ -7,7 +7,7 @@ from typing import Any
 import yaml
 
 from ial.datasets.motion import ErrorBound, MotionBounds
-from ial.lidar.config import Bounds, FreeSpace, LocalizedSize, LocalizerConfig, Precision
+from ial.lidar.config import Bounds, FreeSpace, LidarBounds, LocalizedSize, LocalizerConfig, Precision
 
 _HEADER = "# The configuration of a localizer, with every default filled in. Lengths in metres, angles in radians.\n"
 
@@ -31,7 +31,8 @@ def config_of(record: Mapping[str, Any]) -> LocalizerConfig:
     errors = {name: rest.pop(name) for name in ("range_error_m", "bearing_error_rad", "map_error_m")}
     sideways = None if motion["sideways"] is None else ErrorBound(**motion["sideways"])
     wheels = MotionBounds(ErrorBound(**motion["translation"]), ErrorBound(**motion["rotation"]), sideways)
-    bounds = Bounds(**errors, motion=wheels)
+    lidars = {str(frame): LidarBounds(**own) for frame, own in rest.pop("lidars").items()}
+    bounds = Bounds(**errors, motion=wheels, lidars=lidars)
     parts = {"free_space": FreeSpace, "precision": Precision, "localized_size": LocalizedSize}
     made = {name: kind(**rest.pop(name)) for name, kind in parts.items()}
     return LocalizerConfig(bounds=bounds, **made, **rest)

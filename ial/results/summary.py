@@ -3,14 +3,17 @@
 import contextlib
 import platform
 import time
+from array import array
 from collections import Counter
 from collections.abc import Mapping
+from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 import numpy as np
 
 from ial.datasets.recording import Recording, Step
+from ial.datasets.scan import Mounting
 from ial.datasets.stamps import format_stamp
 from ial.lidar.config import LocalizerConfig
 from ial.lidar.estimate import Estimate
@@ -52,7 +55,8 @@ class Summary:
         self._statuses: Counter[str] = Counter()
         self._limits: Counter[str] = Counter()
         self._hypotheses: Counter[int] = Counter()
-        self._elapsed: list[float] = []
+        self._elapsed = array("d")
+        self._lidars: dict[str, Mounting] = {}
         self._beams: set[int] = set()
         self._uninformative = 0
         self._first: Step | None = None
@@ -77,6 +81,7 @@ class Summary:
         self._hypotheses[len(estimate.hypotheses)] += 1
         self._elapsed.append(estimate.elapsed_s)
         self._beams.add(len(step.scan))
+        self._lidars.setdefault(step.scan.frame_id, step.scan.mounting)
         self._uninformative += estimate.uninformative
         if estimate.limited:
             self._limits[estimate.limited] += 1
@@ -114,6 +119,7 @@ class Summary:
             "one_hypothesis": self._hypotheses[1],
             "uninformative": self._uninformative,
             "limited": dict(self._limits),
+            "lidars_without_scans": sorted(self._config.bounds.lidars.keys() - self._lidars.keys()),
             "skipped": dict(self._recording.skipped),
             "repaired": dict(self._recording.repaired),
         }
@@ -138,14 +144,13 @@ class Summary:
         about: dict[str, Any] = {"name": self._recording.name}
         if self._first is None or self.last is None:
             return about
-        mounting = self._first.scan.mounting
         return {
             **about,
             "first_stamp": format_stamp(self._first.stamp_ns),
             "last_stamp": format_stamp(self.last.stamp_ns),
             "duration_s": 1e-9 * (self.last.stamp_ns - self._first.stamp_ns),
             "beams": sorted(self._beams),
-            "mounting": {"x": mounting.x, "y": mounting.y, "yaw": mounting.yaw, "upside_down": mounting.upside_down},
+            "lidars": {frame: asdict(mounting) for frame, mounting in self._lidars.items()},
         }
 
 

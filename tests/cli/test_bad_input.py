@@ -47,7 +47,9 @@ def test_no_scan_topic(localize: Refused, bag: Any) -> None:
 
 def test_two_scan_topics(localize: Refused, bag: Any) -> None:
     text = localize(bag.write(topics=("/front", "/rear")))
-    assert re.search(r"several topics .*/front, /rear; choose one with --scan-topic /front", text)
+    assert re.search(
+        r"several topics .*/front, /rear; choose one with --scan-topic /front; several lidars are used together if each is named", text
+    )
 
 
 def test_a_scan_topic_that_is_not_there(localize: Refused, bag: Any) -> None:

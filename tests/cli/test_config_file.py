@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -66,6 +67,17 @@ def test_the_command_line_wins_over_the_environment_that_over_the_file(tmp_path:
     assert resolve(file, [], environment).outliers == 2
 
 
+def test_lidars_may_have_errors_of_their_own(tmp_path: Path) -> None:
+    file = tmp_path / "config.yaml"
+    file.write_text("lidars: {rear: {range_error_m: 1e-1, bearing_error_rad: 0.02}}\n")
+    config = resolve(file, environment={})
+    assert config.bounds.of("rear") == replace(config.bounds, range_error_m=0.1, bearing_error_rad=0.02)
+    assert config.bounds.of("front") == config.bounds
+    again = tmp_path / "again.yaml"
+    again.write_text(config_yaml(config))
+    assert resolve(again, environment={}) == config
+
+
 @pytest.mark.parametrize(("text", "value"), [("7", 7), ("0.25", 0.25), ("1", 1), ("1.0", 1.0), ("0", 0), ("1e-1", 0.1)])
 def test_a_number_of_outliers_and_a_fraction_stay_apart(text: str, value: float) -> None:
     for found in (resolve(environment={}, outliers=text), resolve(settings=[f"outliers={text}"], environment={})):
@@ -91,6 +103,8 @@ def test_an_empty_file_changes_nothing(tmp_path: Path) -> None:
     [
         (["max_beam=3"], {}, "--set max_beam=3: unknown key 'max_beam'.*did you mean 'max_beams'"),
         (["motion.translation=3"], {}, "--set motion.translation=3: motion.translation is 3: "),
+        (["lidars.rear.range_error=1"], {}, "unknown key 'lidars.rear.range_error'; allowed are range_error_m, "),
+        (["lidars.rear.range_error_m=1"], {}, "the key 'lidars.rear.bearing_error_rad' is missing"),
         (["max_beams"], {}, "--set max_beams: give KEY=VALUE"),
         (["=3"], {}, "--set =3: give KEY=VALUE"),
         (["max_beams=["], {}, r"--set max_beams=\[: '\[' is no value"),

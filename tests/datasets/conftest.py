@@ -119,9 +119,9 @@ class Bag:
         stamped = make("geometry_msgs/msg/TransformStamped", header=header, child_frame_id=child, transform=transform)
         self._write(topic, "tf2_msgs/msg/TFMessage", make("tf2_msgs/msg/TFMessage", transforms=[stamped]))
 
-    def mounting(self, **changes: object) -> None:
-        """Write where the laser sits."""
-        self.transform(0.0, "base_link", "laser", topic="/tf_static", **changes)  # type: ignore[arg-type]
+    def mounting(self, child: str = "laser", **changes: object) -> None:
+        """Write where a laser sits."""
+        self.transform(0.0, "base_link", child, topic="/tf_static", **changes)  # type: ignore[arg-type]
 
     def __enter__(self) -> "Bag":
         self.writer.__enter__()

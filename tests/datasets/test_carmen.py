@@ -208,10 +208,12 @@ def test_logs_without_a_usable_scan_are_refused(tmp_path: Path, lines: list[str]
 def test_of_two_kinds_of_scans_one_can_be_chosen(tmp_path: Path) -> None:
     _log(tmp_path, odom("0 0 0"), flaser([1, 2, 3]), robotlaser([1, 2]))
     path = tmp_path / "test.log"
-    assert len(next(CarmenLog(path, "FLASER").readings()).scan) == 3
-    assert len(next(CarmenLog(path, "ROBOTLASER1").readings()).scan) == 2
+    assert len(next(CarmenLog(path, ["FLASER"]).readings()).scan) == 3
+    assert len(next(CarmenLog(path, ["ROBOTLASER1"]).readings()).scan) == 2
     with pytest.raises(RecordingError, match="FLASER, ROBOTLASER1"):
-        list(CarmenLog(path, "RLASER").readings())
+        list(CarmenLog(path, ["RLASER"]).readings())
+    with pytest.raises(RecordingError, match="give --scan-topic once"):
+        list(CarmenLog(path, ["FLASER", "ROBOTLASER1"]).readings())
 
 
 def test_a_truncated_gzip_file_is_refused(tmp_path: Path) -> None:

@@ -20,8 +20,30 @@ def _at(x: float, y: float = 0.0, theta: float = 0.0) -> Odometry:
 def test_an_exact_stamp_gives_the_very_message() -> None:
     first, second = _at(1.0, 2.0, 0.3), _at(2.0)
     buffer = OdometryBuffer([(100, second), (50, first)])
-    assert buffer.at(50) is first
-    assert buffer.at(100) is second
+    assert buffer.at(50) == first
+    assert buffer.at(100) == second
+
+
+def test_of_two_messages_with_one_stamp_the_later_counts_and_more_may_come() -> None:
+    buffer = OdometryBuffer([(50, _at(1.0)), (50, _at(2.0))])
+    assert buffer.at(50) == _at(2.0)
+    buffer.add(40, _at(3.0))
+    buffer.add(50, _at(4.0))
+    assert buffer.at(50) == _at(4.0)
+    assert len(buffer) == 2
+
+
+def test_an_error_may_come_before_or_after_its_message() -> None:
+    buffer = OdometryBuffer()
+    buffer.limit(50, 0.1, 0.2)
+    buffer.limit(70, 0.5, 0.5)  # of no message
+    buffer.add(50, _at(1.0))
+    buffer.add(60, _at(1.0))
+    assert (buffer.at(50), buffer.at(60)) == (Odometry.of(Pose(1.0), 0.1, 0.2), _at(1.0))
+
+
+def test_nothing_is_known_of_no_message() -> None:
+    assert OdometryBuffer().at(5) is None
 
 
 def test_between_messages_the_pose_is_linear_and_its_error_known() -> None:

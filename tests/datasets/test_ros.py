@@ -9,6 +9,7 @@ import pytest
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
+from ial.datasets.conversion import convert
 from ial.datasets.opening import open_recording
 from ial.datasets.scan import BeamClass
 from ial.errors import RecordingError
@@ -139,12 +140,49 @@ def test_of_two_scan_topics_one_must_be_chosen(bag) -> None:  # type: ignore[no-
         bag.scan(1.0, "/rear", range_max=5.0)
     with pytest.raises(RecordingError, match=r"/front, /rear; choose one with --scan-topic"):
         list(open_recording(bag.path).readings())
-    assert next(open_recording(bag.path, "/rear").readings()).scan.range_max == 5.0
+    assert next(open_recording(bag.path, ["/rear"]).readings()).scan.range_max == 5.0
     with pytest.raises(RecordingError, match="/side is not in the recording"):
-        list(open_recording(bag.path, "/side").readings())
+        list(open_recording(bag.path, ["/side"]).readings())
     with pytest.raises(RecordingError, match="/odom has the type nav_msgs/msg/Odometry"):
-        list(open_recording(bag.path, "/odom").readings())
+        list(open_recording(bag.path, ["/odom"]).readings())
     assert any("--scan-topic" in fault for fault in open_recording(bag.path).info().missing)
+
+
+def test_several_lidars_follow_one_another_by_their_stamps(bag) -> None:  # type: ignore[no-untyped-def]
+    with bag:
+        bag.mounting(child="front", translation=(0.3, 0.0, 0.2))
+        bag.mounting(child="rear", translation=(-0.3, 0.0, 0.2), quaternion=(0.0, 0.0, 1.0, 0.0))
+        for tenth in range(6):
+            bag.odometry(1.0 + 0.1 * tenth, x=float(tenth))
+        for stamp in (1.0, 1.2, 1.4):  # recorded in another order than that of the stamps
+            bag.scan(stamp + 0.1, "/rear", "rear")
+            bag.scan(stamp, "/front", "front")
+    recording = open_recording(bag.path, ["/front", "/rear"])
+    readings = list(recording.readings())
+    assert [reading.scan.frame_id for reading in readings] == ["front", "rear"] * 3
+    assert [reading.odometry.x for reading in readings] == pytest.approx([0.0, 1.0, 2.0, 3.0, 4.0, 5.0])
+    assert [reading.scan.mounting.x for reading in readings[:2]] == [0.3, -0.3]
+    assert not recording.repaired
+    assert set(recording.info().mountings) == {"front", "rear"}
+    with pytest.raises(RecordingError, match=r"several lidars .*which --laser-pose cannot place"):
+        list(open_recording(bag.path, ["/front", "/rear"], laser_pose=Pose()).readings())
+
+
+def test_scans_of_two_lidars_may_have_one_stamp(bag, tmp_path: Path, canonical_steps) -> None:  # type: ignore[no-untyped-def]
+    with bag:
+        bag.mounting(child="front")
+        bag.mounting(child="rear", translation=(-0.3, 0.0, 0.2))
+        for second in (1.0, 1.1):
+            bag.odometry(second)
+            bag.scan(second, "/front", "front")
+            bag.scan(second, "/rear", "rear")
+    recording = open_recording(bag.path, ["/rear", "/front"])
+    readings = list(recording.readings())
+    assert readings[1].stamp_ns - readings[0].stamp_ns == 1
+    assert not recording.repaired
+    for name in ("again.mcap", "again.bag"):
+        convert(recording, tmp_path / name)
+        assert canonical_steps(open_recording(tmp_path / name)) == canonical_steps(recording)
 
 
 def test_of_two_odometry_topics_one_must_be_chosen(bag) -> None:  # type: ignore[no-untyped-def]

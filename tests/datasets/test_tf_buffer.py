@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
+from ial.datasets.odometry import Odometry
 from ial.datasets.tf_buffer import Transform, TransformBuffer
 
 unit = st.floats(-1.0, 1.0)
@@ -67,5 +68,8 @@ def test_samples_from_odom_are_kept() -> None:
     buffer.add("odom", "base_link", 2, edge)
     buffer.add("odom", "base_link", 3, edge)
     buffer.add("base_link", "arm", 3, edge)
-    assert buffer.odometry("base_link") == [(2, edge), (3, edge)]
-    assert buffer.odometry("arm") == []
+    odometry = buffer.odometry("base_link")
+    assert odometry is not None
+    assert odometry.at(2) == odometry.at(3) == Odometry(1.0, 0.0)
+    assert len(odometry) == 2
+    assert buffer.odometry("arm") is None

@@ -38,6 +38,7 @@ def test_counts(summary: Summary) -> None:
         "one_hypothesis": 2,
         "uninformative": 1,
         "limited": {"boxes": 1},
+        "lidars_without_scans": [],
         "skipped": {"no odometry": 3},
         "repaired": {},
     }
@@ -64,7 +65,7 @@ def test_everything_is_plain_json(summary: Summary) -> None:
     assert record["options"] == {"every": 2}
     assert record["map"]["columns"] == 80
     assert record["recording"]["beams"] == [3]
-    assert record["recording"]["mounting"]["upside_down"] is True
+    assert record["recording"]["lidars"]["laser"]["upside_down"] is True
     assert record["versions"]["numba"]
 
 
