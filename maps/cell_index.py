@@ -26,8 +26,30 @@ BORDER = 64
 
 @kernel
 def count(table, row0, row1, column0, column1):  # type: ignore[no-untyped-def]
-    """Return how many cells of the set lie in rows row0 … row1 − 1 and columns column0 … column1 − 1."""
-    return table[row1, column1] - table[row0, column1] - table[row1, column0] + table[row0, column0]
+    """Return how many cells of the set lie in rows row0 … row1 − 1 and columns column0 … column1 − 1.
+
+    In a table of 16 bits numbers are known up to a multiple of 2¹⁶: of so many cells or more, at least one is taken to be in the set.
+    """
+    if table.itemsize == 2:
+        cells = np.int64(table[row1, column1]) - table[row0, column1] - table[row1, column0] + table[row0, column0]
+        known = cells & 0xFFFF
+        return max(known, 1) if (row1 - row0) * (column1 - column0) > 0xFFFF else known
+    return np.int64(table[row1, column1] - table[row0, column1] - table[row1, column0] + table[row0, column0])
+
+
+@kernel
+def _accumulate(mask, table):  # type: ignore[no-untyped-def]
+    """Fill a summed-area table, modulo the size of its numbers; `mask` has a row and `BORDER` columns on either side less."""
+    rows, columns = mask.shape
+    table[0, :] = 0
+    for row in range(rows):
+        total = np.int64(0)
+        table[row + 1, : BORDER + 1] = 0
+        for column in range(columns):
+            total += mask[row, column]
+            table[row + 1, BORDER + 1 + column] = table[row, BORDER + 1 + column] + total
+        for column in range(BORDER + 1 + columns, table.shape[1]):
+            table[row + 1, column] = table[row + 1, BORDER + columns]
 
 
 @kernel
@@ -135,11 +157,14 @@ class CellIndex:
         Which cells belong to the set, bool of shape (rows, columns), row 0 at the bottom.
     resolution
         The width of a cell in metres.
+    compact
+        Count in 16 bits, modulo 2¹⁶: half the memory. Rectangles of 2¹⁶ cells or more are then taken to meet the set.
 
     Attributes
     ----------
     table
-        int32 of shape (rows + 1, columns + 1): ``table[i, j]`` cells of the set lie in rows below i and columns below j.
+        int32, or uint16 if it is compact, of shape (rows + 1, columns + 1): ``table[i, j]`` cells of the set lie in rows below i and
+        columns below j.
     bordered
         The same table with `BORDER` more columns on either side, contiguous; `table` is a view of it.
     resolution, inverse_resolution
@@ -151,18 +176,17 @@ class CellIndex:
         If the mask is empty, too large or no two-dimensional mask, or the resolution cannot be meant.
     """
 
-    def __init__(self, mask: npt.NDArray[np.bool_], resolution: float) -> None:
-        import cv2
-
+    def __init__(self, mask: npt.NDArray[np.bool_], resolution: float, compact: bool = False) -> None:
         if mask.ndim != 2 or mask.dtype != np.bool_:
             raise MapError(f"the mask is an array of {mask.dtype} with shape {mask.shape}; give bool with shape (rows, columns)")
         check_size(*mask.shape)
         check_resolution(resolution)
         rows, columns = mask.shape
         # Counted in place: for a large map a copy of the table would cost more memory than all else.
-        self.bordered: npt.NDArray[np.int32] = np.empty((rows + 1, columns + 1 + 2 * BORDER), dtype=np.int32)
-        framed = cv2.copyMakeBorder(np.ascontiguousarray(mask).view(np.uint8), 0, 0, BORDER, BORDER, cv2.BORDER_CONSTANT, value=0)
-        cv2.integral(framed, self.bordered)
+        self.bordered: npt.NDArray[np.int32 | np.uint16] = np.empty(
+            (rows + 1, columns + 1 + 2 * BORDER), dtype=np.uint16 if compact else np.int32
+        )
+        _accumulate(mask, self.bordered)
         self.table = self.bordered[:, BORDER : BORDER + columns + 1]
         self.resolution = float(resolution)
         self.inverse_resolution = 1.0 / self.resolution

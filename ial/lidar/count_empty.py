@@ -23,7 +23,7 @@ def count_empty(typingctx, table, above_right, above_left, below_right, below_le
     Parameters
     ----------
     table
-        Summed-area table, contiguous int32 of shape (n,).
+        Summed-area table, contiguous int32 or uint16 of shape (n,); in 16 bits the rectangles must have less than 2¹⁶ cells.
     above_right, above_left, below_right, below_left
         Where in the table the corners of the first rectangle are, int64; those of the others follow. Nothing checks them.
     counts
@@ -34,23 +34,24 @@ def count_empty(typingctx, table, above_right, above_left, below_right, below_le
     signature = types.void(table, above_right, above_left, below_right, below_left, counts, at)
 
     def codegen(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        lanes = ir.VectorType(_INT32, LANES)
         table, *corners, counts, at = arguments
+        bits = signature.args[0].dtype.bitwidth
+        numbers, lanes = ir.VectorType(ir.IntType(bits), LANES), ir.VectorType(_INT32, LANES)
 
-        def pointer(number: int, array: Any, index: Any) -> Any:
+        def pointer(number: int, array: Any, index: Any, kind: Any) -> Any:
             data = context.make_array(signature.args[number])(context, builder, array).data
-            return builder.bitcast(builder.gep(data, [index]), lanes.as_pointer())
+            return builder.bitcast(builder.gep(data, [index]), kind.as_pointer())
 
-        def load(pointer: Any) -> Any:
+        def load(pointer: Any, align: int) -> Any:
             vector = builder.load(pointer)
-            vector.align = 4
+            vector.align = align
             return vector
 
-        one, two, three, four = (load(pointer(0, table, corner)) for corner in corners)
+        one, two, three, four = (load(pointer(0, table, corner, numbers), bits // 8) for corner in corners)
         cells = builder.add(builder.sub(builder.sub(one, two), three), four)
-        empty = builder.sext(builder.icmp_signed("==", cells, ir.Constant(lanes, [0] * LANES)), lanes)  # -1 where there is none
-        place = pointer(5, counts, at)
-        stored = builder.store(builder.sub(load(place), empty), place)
+        empty = builder.sext(builder.icmp_signed("==", cells, ir.Constant(numbers, [0] * LANES)), lanes)  # -1 where there is none
+        place = pointer(5, counts, at, lanes)
+        stored = builder.store(builder.sub(load(place, 4), empty), place)
         stored.align = 4
         return context.get_dummy_value()
 

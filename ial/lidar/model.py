@@ -64,7 +64,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         self.config = config
         split, parts = divide(grid.resolution, config.precision.position_m)
         self.occupied = CellIndex(_split(grid.mask(OCCUPIED), split), grid.resolution / split)
-        self.domain = CellIndex(_split(self._roomy(grid.mask(*allowed)), split), grid.resolution / split)
+        self.domain = CellIndex(_split(self._roomy(grid.mask(*allowed)), split), grid.resolution / split, compact=True)
         self.bits = BitColumns(_split(grid.mask(OCCUPIED), split)) if config.free_space.use else None
         self.lattice = Lattice(parts * self.occupied.resolution, config.precision.heading_rad, parts)
         self._universe = PoseSet(self.lattice.root(grid.width_m, grid.height_m))

@@ -29,7 +29,7 @@ class Case:
         split, parts = divide(world.resolution, float(random.choice([0.3, 1.0, 2.0, 2.5, 5.0])) * world.resolution)
         mask = world.mask.repeat(split, axis=0).repeat(split, axis=1)
         self.occupied = CellIndex(mask, world.resolution / split)
-        self.domain = CellIndex(np.ones_like(mask), world.resolution / split)
+        self.domain = CellIndex(np.ones_like(mask), world.resolution / split, compact=True)
         self.lattice = Lattice(parts * self.occupied.resolution, float(random.choice([0.02, 0.2])), parts)
         at = np.array([world.pose.x, world.pose.y, world.pose.theta])
         around = random.uniform(0.0, 4.0, 3) * self.lattice.widths
@@ -98,7 +98,7 @@ def test_cells_outside_the_domain_are_dropped_on_any_number_of_threads(threads: 
     world = World.random(np.random.default_rng(0))
     set_threads(threads)
     try:
-        words, _ = count_cells(tiles, lattice, world.beams(1000), occupied, CellIndex(domain, 0.05), 0.0)
+        words, _ = count_cells(tiles, lattice, world.beams(1000), occupied, CellIndex(domain, 0.05, compact=True), 0.0)
     finally:
         set_threads(None)
     cells = lattice.boxes(type(tiles)(tiles.keys, words))

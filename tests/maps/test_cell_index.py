@@ -133,6 +133,40 @@ def test_count_is_a_sum_over_the_cells() -> None:
             assert count(table, row0, row1, column0, column1) == mask[row0:row1, column0:column1].sum()
 
 
+def test_a_compact_table_counts_modulo_two_to_the_sixteen() -> None:
+    mask = np.random.default_rng(7).random((300, 400)) < 0.9  # many more cells than 16 bits hold
+    mask[100:200, 50:300] = False
+    full, compact = CellIndex(mask, 0.1), CellIndex(mask, 0.1, compact=True)
+    assert compact.bordered.nbytes == full.bordered.nbytes // 2
+    assert (compact.bordered == full.bordered.astype(np.uint16)).all()
+    rng = np.random.default_rng(8)
+    for _ in range(3000):
+        (row0, row1), (column0, column1) = np.sort(rng.integers(0, 301, 2)), np.sort(rng.integers(0, 401, 2))
+        exact, found = (count(each.table, row0, row1, column0, column1) for each in (full, compact))
+        if (row1 - row0) * (column1 - column0) < 2**16:
+            assert found == exact
+        else:
+            assert found >= 1
+
+
+def test_a_compact_index_never_misses_a_cell() -> None:
+    rng = np.random.default_rng(9)
+    mask = np.zeros((400, 500), np.bool_)
+    mask[:, 490:] = True
+    full, compact = CellIndex(mask, 0.1), CellIndex(mask, 0.1, compact=True)
+    lower = rng.uniform(-1.0, 45.0, (4000, 2))
+    boxes = Boxes(lower, lower + rng.uniform(0.0, 1.0, (4000, 1)) ** 3 * rng.uniform(0.0, 50.0, (4000, 2)))
+    exact, found = full.meet(boxes), compact.meet(boxes)
+    assert (found | ~exact).all()
+    assert (found & ~exact).any()  # where 2¹⁶ cells or more were asked for
+    small = (boxes.width() < 20.0).all(axis=1)
+    assert (found[small] == exact[small]).all()
+    narrowed = [CellContractor(each).contract(boxes) for each in (full, compact)]
+    kept = ~narrowed[0].empty
+    assert (narrowed[1].lower[kept] <= narrowed[0].lower[kept]).all()
+    assert (narrowed[1].upper[kept] >= narrowed[0].upper[kept]).all()
+
+
 def test_endless_empty_and_far_boxes() -> None:
     mask = np.zeros((3, 4), np.bool_)
     mask[1, 2] = True
