@@ -196,12 +196,12 @@ def check_usable(grid: OccupancyGrid, domain: tuple[int, ...] = (FREE,)) -> None
     MapError
         If no cell is occupied, so that no beam could tell one pose from another, or none belongs to the domain.
     """
-    counts = np.bincount(grid.cells.ravel(), minlength=3)
+    counts = [np.count_nonzero(grid.cells == each) for each in range(len(CLASS_NAMES))]
     found = ", ".join(f"{count} {name}" for count, name in zip(counts, CLASS_NAMES, strict=True))
     if not counts[OCCUPIED]:
         raise MapError(
             f"the map has no occupied cell ({found}), so there is nothing to localize against; check the image, negate and occupied_thresh"
         )
-    if not counts[list(domain)].sum():
+    if not any(counts[each] for each in domain):
         wanted = " or ".join(CLASS_NAMES[each] for each in domain)
         raise MapError(f"the map has no {wanted} cell ({found}), so the robot can be nowhere; check the image, negate and free_thresh")

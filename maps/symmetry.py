@@ -24,12 +24,13 @@ def symmetries(*masks: MaskArray, resolution: float) -> tuple[Pose, ...]:
         Transforms of the grid frame: the image of a pose is ``symmetry @ pose``. A mirrored map is no symmetry, since a lidar tells left
         from right; nor is a repeated room in a map that ends somewhere.
     """
-    rows, columns = np.nonzero(np.any(masks, axis=0))
+    # By lines, since the places of all cells of a large map would not fit into the memory.
+    rows, columns = (np.flatnonzero(np.any([mask.any(axis=axis) for mask in masks], axis=0)) for axis in (1, 0))
     if not len(rows):
         return ()
-    top, right = rows.max() + 1, columns.max() + 1
-    parts = [mask[rows.min() : top, columns.min() : right] for mask in masks]
-    x, y = 0.5 * (columns.min() + right) * resolution, 0.5 * (rows.min() + top) * resolution
+    top, right = rows[-1] + 1, columns[-1] + 1
+    parts = [mask[rows[0] : top, columns[0] : right] for mask in masks]
+    x, y = 0.5 * (columns[0] + right) * resolution, 0.5 * (rows[0] + top) * resolution
     found = []
     for quarters in (1, 2, 3):
         if all(np.array_equal(np.rot90(part, quarters), part) for part in parts):
