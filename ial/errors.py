@@ -29,5 +29,13 @@ class PavingError(IalError):
     """A file that holds no paving."""
 
 
+class FilterError(IalError):
+    """A filter that cannot be built, or a file that holds none."""
+
+
+class StreamError(IalError):
+    """A stream of observations that cannot be read, or that a closed world cannot produce."""
+
+
 class RoundingModeError(IalError):
     """The processor does not round to nearest, or flushes subnormal numbers to zero: no bound could be trusted."""
