@@ -7,6 +7,7 @@ below are loaded when they are first used.
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from ial import bouncing as bouncing
     from ial import contractors as contractors
     from ial import datasets as datasets
     from ial import lidar as lidar
@@ -14,11 +15,13 @@ if TYPE_CHECKING:
     from ial import particles as particles
     from ial import results as results
     from ial.errors import ConfigError as ConfigError
+    from ial.errors import FilterError as FilterError
     from ial.errors import IalError as IalError
     from ial.errors import MapError as MapError
     from ial.errors import OutputError as OutputError
     from ial.errors import RecordingError as RecordingError
     from ial.errors import RoundingModeError as RoundingModeError
+    from ial.errors import StreamError as StreamError
     from ial.errors import TrajectoryError as TrajectoryError
     from ial.pose import Pose as Pose
 else:
@@ -27,6 +30,7 @@ else:
     __getattr__, __dir__, __all__ = _lazy(
         __name__,
         {
+            "bouncing": (),
             "contractors": (),
             "datasets": (),
             "lidar": (),
@@ -35,11 +39,13 @@ else:
             "results": (),
             "errors": (
                 "ConfigError",
+                "FilterError",
                 "IalError",
                 "MapError",
                 "OutputError",
                 "RecordingError",
                 "RoundingModeError",
+                "StreamError",
                 "TrajectoryError",
             ),
             "pose": ("Pose",),

@@ -7,15 +7,28 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ial.bouncing.automaton import Automaton as Automaton
+    from ial.bouncing.bank import FilterBank as FilterBank
+    from ial.bouncing.bounce_filter import BounceFilter as BounceFilter
+    from ial.bouncing.bounce_filter import Place as Place
+    from ial.bouncing.building import build_filter as build_filter
+    from ial.bouncing.building import free_cells as free_cells
     from ial.bouncing.cell_map import CellMap as CellMap
+    from ial.bouncing.cycle_places import CyclePlaces as CyclePlaces
     from ial.bouncing.determinization import determinize as determinize
+    from ial.bouncing.filter_file import read_filter as read_filter
+    from ial.bouncing.filter_file import write_filter as write_filter
     from ial.bouncing.graph import LabelledGraph as LabelledGraph
     from ial.bouncing.graph import disjoint_union as disjoint_union
     from ial.bouncing.groups import PeriodicGroups as PeriodicGroups
     from ial.bouncing.groups import periodic_groups as periodic_groups
     from ial.bouncing.headings import Headings as Headings
+    from ial.bouncing.minimal import minimize as minimize
     from ial.bouncing.model import BouncingModel as BouncingModel
     from ial.bouncing.nondeterministic import NondeterministicAutomaton as NondeterministicAutomaton
+    from ial.bouncing.setting import Setting as Setting
+    from ial.bouncing.stream import parse_stream as parse_stream
+    from ial.bouncing.table import FilterTable as FilterTable
+    from ial.bouncing.trace_classes import trace_quotient as trace_quotient
 else:
     from ial.lazy import lazy as _lazy
 
@@ -23,12 +36,22 @@ else:
         __name__,
         {
             "automaton": ("Automaton",),
+            "bank": ("FilterBank",),
+            "bounce_filter": ("BounceFilter", "Place"),
+            "building": ("build_filter", "free_cells"),
             "cell_map": ("CellMap",),
+            "cycle_places": ("CyclePlaces",),
             "determinization": ("determinize",),
+            "filter_file": ("read_filter", "write_filter"),
             "graph": ("LabelledGraph", "disjoint_union"),
             "groups": ("PeriodicGroups", "periodic_groups"),
             "headings": ("Headings",),
+            "minimal": ("minimize",),
             "model": ("BouncingModel",),
             "nondeterministic": ("NondeterministicAutomaton",),
+            "setting": ("Setting",),
+            "stream": ("parse_stream",),
+            "table": ("FilterTable",),
+            "trace_classes": ("trace_quotient",),
         },
     )

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
-from ial.cli import bounds, convert, info, kidnap, localize, map_info, replay, simulate, stream, warm, where
+from ial.cli import bounce_build, bounce_run, bounds, convert, info, kidnap, localize, map_info, replay, simulate, stream, warm, where
 from ial.cli.outcome import exit_status
 from ial.cli.terminal import say
 
@@ -29,6 +29,7 @@ app = typer.Typer(
     epilog="Exit status: 0 done, 2 wrong input or usage, 3 ran but never localized.",
 )
 maps = typer.Typer(no_args_is_help=True, help="Look at a map.")
+bounce = typer.Typer(no_args_is_help=True, help="Localize a robot that has a contact sensor and a clock.")
 app.command("localize")(localize.localize)
 app.command("where")(where.where)
 app.command("bounds")(bounds.bounds)
@@ -40,6 +41,9 @@ app.command("replay")(replay.replay)
 app.command("warm")(warm.warm)
 maps.command("info")(map_info.map_info)
 app.add_typer(maps, name="map")
+bounce.command("build")(bounce_build.build)
+bounce.command("run")(bounce_run.run)
+app.add_typer(bounce, name="bounce")
 
 
 @app.command(

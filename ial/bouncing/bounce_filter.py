@@ -1,0 +1,81 @@
+"""`BounceFilter`: everything a robot needs to localize itself by bumps: the table, the places, and what it was built for."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from ial.bouncing.cycle_places import CyclePlaces
+from ial.bouncing.heading_classes import HeadingClasses
+from ial.bouncing.setting import Setting
+from ial.bouncing.table import FilterTable
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a robot can be: a cell, and headings that cannot be told apart.
+
+    Parameters
+    ----------
+    environment
+        Its name.
+    x_m, y_m
+        The centre of the cell in the frame of the environment, in metres.
+    headings_deg
+        The headings, counter-clockwise from the x axis, in degrees.
+    """
+
+    environment: str
+    x_m: Fraction
+    y_m: Fraction
+    headings_deg: tuple[Fraction, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class BounceFilter:
+    """A filter for one environment or several.
+
+    Parameters
+    ----------
+    table
+        The states and their successors.
+    places
+        The sets behind the states of knowledge cycles.
+    setting
+        What the filter was built for.
+    """
+
+    table: FilterTable
+    places: CyclePlaces
+    setting: Setting
+
+    @cached_property
+    def _steps(self) -> npt.NDArray[np.int64]:
+        """How many steps each state stands behind the anchor of its cycle."""
+        steps = np.full(len(self.table), -1, dtype=np.int64)
+        for anchor in self.places.anchors.tolist():
+            state, step = anchor, 0
+            while steps[state] < 0:
+                steps[state] = step
+                state, step = int(self.table.successors[state].min()), step + 1  # the other arc leads to the trap, the last state
+        return steps
+
+    @cached_property
+    def _classes(self) -> HeadingClasses:
+        headings = self.setting.headings
+        return HeadingClasses.merged(headings) if self.setting.merged else HeadingClasses.single(headings)
+
+    def where(self, state: int) -> list[Place]:
+        """Return where the robot can be in a state of a knowledge cycle; nothing for other states, whose sets are not kept."""
+        if not self.table.is_localized(state):
+            return []
+        setting, places = self.setting, self.places
+        found = []
+        for vertex in places.at(int(self.table.colours[state]) - 2, int(self._steps[state])).tolist():
+            environment = int(places.environment[vertex])
+            x, y = setting.centre(environment, int(places.row[vertex]), int(places.column[vertex]))
+            members = self._classes.members(int(places.heading_class[vertex]))
+            found.append(Place(setting.names[environment], x, y, tuple(setting.headings.angle_deg(each) for each in members)))
+        return found

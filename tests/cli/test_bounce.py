@@ -1,0 +1,156 @@
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from ial.bouncing.filter_file import read_filter
+from ial.maps.map_file import write_map
+from ial.maps.occupancy_grid import OccupancyGrid
+
+Cli = Callable[..., Any]
+WKT = "POLYGON ((0 0, 9 0, 9 4, 5 4, 5 7, 0 7, 0 0), (2 2, 2 4, 3 4, 3 2, 2 2))"
+
+
+@pytest.fixture
+def hall() -> Path:
+    path = Path("hall.wkt")
+    path.write_text(WKT)
+    return path
+
+
+@pytest.fixture
+def built(ial: Cli, hall: Path) -> Path:
+    assert ial("bounce", "build", hall, "--angle", "90", "--cell", 1, "--headings", 4, "--radius", 0, "--out", "hall.npz").exit_code == 0
+    return Path("hall.npz")
+
+
+def stream_of(path: Path, start: int = 3, count: int = 60) -> str:
+    """Observations that never lead to the trap."""
+    table, state, found = read_filter(path).table, 0, ""
+    for at in range(count):
+        options = [letter for letter in (0, 1) if table.step(state, letter) != table.trap]
+        letter = options[(at + start) % len(options)]
+        found, state = found + str(letter), table.step(state, letter)
+    return found
+
+
+def test_build_says_what_it_has_built(ial: Cli, hall: Path) -> None:
+    result = ial("bounce", "build", hall, "--out", "f.npz")
+    assert result.exit_code == 0
+    assert "hall: 196 configurations, 4 headings, cells of 1 m, bouncing angle 90°" in result.stdout
+    assert "177 states, 2 knowledge cycles" in result.stdout
+    assert "a localized robot is in 1 to 2 configurations" in result.stdout
+    record = json.loads(ial("bounce", "build", hall, "--out", "f.npz", "--angle", "45/2", "--cell", "1/2", "--json").stdout)
+    assert (record["headings"], record["bounce_deg"], record["cell_m"]) == (16, 22.5, 0.5)
+    assert record["configurations"] == 16 * 4 * 49
+
+
+def test_run_localizes(ial: Cli, built: Path) -> None:
+    stream = stream_of(built)
+    result = ial("bounce", "run", built, "--stream", stream)
+    assert result.exit_code == 0
+    assert "after 60 observations: localized (colour" in result.stdout
+    assert "hall: x " in result.stdout
+    Path("stream.txt").write_text(stream[:30] + "\n" + stream[30:] + "\n")
+    record = json.loads(ial("bounce", "run", built, "--file", "stream.txt", "--json").stdout)
+    assert record["localized"]
+    assert record["configurations"] == sum(len(place["headings_deg"]) for place in record["places"])
+    assert record["rejected_at"] == []
+    assert ial("bounce", "run", built, "--file", "stream.txt", "--world", "closed").stdout == result.stdout
+
+
+def test_run_reads_standard_input(built: Path, monkeypatch: pytest.MonkeyPatch, ial: Cli) -> None:
+    import io
+    import sys
+
+    from ial.cli import bounce_run
+
+    monkeypatch.setattr(bounce_run, "sys", type("Sys", (), {"stdin": io.StringIO("0011\n")}))
+    assert bounce_run._read(Path("-")) == "0011\n"
+    assert sys.stdin is not bounce_run.sys.stdin
+
+
+def test_a_robot_that_is_not_localized_or_elsewhere(ial: Cli, built: Path) -> None:
+    result = ial("bounce", "run", built, "--stream", "0")
+    assert result.exit_code == 3
+    assert "not localized yet" in result.stdout
+    elsewhere = ial("bounce", "run", built, "--stream", "0" * 12)
+    assert elsewhere.exit_code == 3
+    assert "rejected at observation 9" in elsewhere.stdout
+    assert "in none of the environments" in elsewhere.stdout
+    carried = ial("bounce", "run", built, "--restart", "--stream", "0" * 9 + stream_of(built))
+    assert carried.exit_code == 0
+    assert "rejected at observation 9" in carried.stdout
+    assert "localized (colour" in carried.stdout
+
+
+def test_several_environments(ial: Cli, hall: Path) -> None:
+    Path("room.svg").write_text('<svg><polygon points="0,0 6,0 6,5 0,5"/></svg>')
+    cells = np.zeros((5, 7), dtype=np.uint8)
+    cells[2, 3] = 1
+    write_map(OccupancyGrid(cells, 1.0), Path("office.yaml"))
+    record = json.loads(ial("bounce", "build", hall, "room.svg", "office.yaml", "--out", "all.npz", "--json").stdout)
+    assert record["environments"] == ["hall", "room", "office"]
+    assert record["configurations"] == 4 * (49 + 30 + 34)
+    result = ial("bounce", "run", "all.npz", "--stream", "00000000")
+    assert "in hall" in result.stdout
+    assert "room" not in result.stdout
+
+
+def test_merged_headings_are_told(ial: Cli, hall: Path) -> None:
+    ial("bounce", "build", hall, "--headings", 360, "--out", "f.npz")
+    result = ial("bounce", "run", "f.npz", "--stream", stream_of(Path("f.npz"), count=200))
+    assert "heading one of " in result.stdout
+    assert "more; --json lists all" in result.stdout or result.stdout.count("hall: x") <= 12
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--angle", "50", "--headings", "8"], "bouncing angle 50° is not a multiple of 45°"),
+        (["--angle", "360"], "multiple of 360°"),
+        (["--angle", "right"], "--angle: 'right' is no number"),
+        (["--angle", "45", "--step", "1/2"], "rounds to offset (0, 0)"),
+        (["--radius", "9"], "no cell is free for a robot of radius 9 m"),
+        (["--radius=-1"], "radius of the robot is -1"),
+        (["--cell", "0"], "--cell is 0"),
+        (["--cell", "1e-9"], "too small"),
+        (["--max-states", "0"], None),
+        (["--most-states", "5"], "more than 5 states"),
+        (["--headings", "0"], "number of headings is 0"),
+    ],
+)
+def test_bad_options_are_refused(refused: Callable[..., str], ial: Cli, hall: Path, options: list[str], message: str | None) -> None:
+    if message is None:  # an option that does not exist is refused by the command line itself
+        assert ial("bounce", "build", hall, "--out", "f.npz", *options).exit_code == 2
+    else:
+        assert message in refused("bounce", "build", hall, "--out", "f.npz", *options)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("POLYGON ((0 0, 4 4, 4 0, 0 3, 0 0))", "the outer ring crosses or touches itself"),
+        ("POLYGON ((0 0, 4 0, 4 4))", "is open"),
+        ("POLYGON ((0 0, 4 0, 4 4, 0 0), (7 7, 8 7, 8 8, 7 7))", "hole 1 does not lie inside"),
+    ],
+)
+def test_bad_environments_are_refused(refused: Callable[..., str], text: str, message: str) -> None:
+    Path("bad.wkt").write_text(text)
+    assert message in refused("bounce", "build", "bad.wkt", "--out", "f.npz")
+
+
+def test_bad_filters_and_streams_are_refused(refused: Callable[..., str], built: Path, hall: Path) -> None:
+    assert "symbol 3 of the stream is '2'" in refused("bounce", "run", built, "--stream", "012")
+    assert "either as --stream BITS or as --file FILE" in refused("bounce", "run", built)
+    assert "either as --stream BITS or as --file FILE" in refused("bounce", "run", built, "--stream", "0", "--file", "x")
+    assert "cannot be read" in refused("bounce", "run", built, "--file", "nowhere.txt")
+    assert "fits no place of the environment" in refused("bounce", "run", built, "--world", "closed", "--stream", "0" * 12)
+    assert "two environments have the same name" in refused("bounce", "build", hall, hall, "--out", "f.npz")
+    Path("cut.npz").write_bytes(built.read_bytes()[:500])
+    assert "truncated" in refused("bounce", "run", "cut.npz", "--stream", "0")
+    Path("bad.txt").write_bytes(b"\xff")
+    assert "no text" in refused("bounce", "run", built, "--file", "bad.txt")
