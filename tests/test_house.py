@@ -87,6 +87,8 @@ def may_import(importer: str, imported: str) -> bool:
         ("maps", "lidar", False),
         ("particles", "lidar", True),
         ("lidar", "particles", False),
+        ("bouncing", "membership", True),
+        ("bouncing", "lidar", False),
         ("results", "study", False),
         ("cli", "results", True),
     ],

@@ -135,7 +135,7 @@ def test_an_unknown_name_is_an_attribute_error() -> None:
         _ = ial.nonsense
 
 
-@pytest.mark.parametrize("package", ["ial", *(f"ial/{folder}" for folder in FOLDERS), "ial/lidar"])
+@pytest.mark.parametrize("package", ["ial", *(f"ial/{folder}" for folder in FOLDERS), "ial/bouncing", "ial/lidar"])
 def test_type_checkers_see_the_names_that_load_lazily(package: str, tmp_path: Path) -> None:
     names = run_elsewhere(f"import {package.replace('/', '.')} as package; print(*getattr(package, '__all__', ()))", tmp_path).split()
     tree = ast.parse((ROOT / package / "__init__.py").read_text())

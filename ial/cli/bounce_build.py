@@ -12,7 +12,7 @@ from ial.cli.terminal import say, say_json, shown
 def build(
     environments: Annotated[
         list[Path],
-        typer.Argument(metavar="ENV...", help="Polygons (.json, .wkt, .geojson, .svg) or a map.yaml; several if it may be in any."),
+        typer.Argument(metavar="ENV", help="Polygons (.json, .wkt, .geojson, .svg) or a map.yaml; several if it may be in any."),
     ],
     out: Annotated[Path, typer.Option(metavar="FILTER", help="The filter to write (.npz).")],
     angle: Annotated[str, typer.Option(metavar="DEGREES", help="The bouncing angle, counter-clockwise: 90, 22.5 or 45/2.")] = "90",

@@ -1,12 +1,16 @@
 import json
+import re
+import shlex
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 from ial.bouncing.filter_file import read_filter
+from ial.cli.main import app
 from ial.maps.map_file import write_map
 from ial.maps.occupancy_grid import OccupancyGrid
 
@@ -62,15 +66,11 @@ def test_run_localizes(ial: Cli, built: Path) -> None:
     assert ial("bounce", "run", built, "--file", "stream.txt", "--world", "closed").stdout == result.stdout
 
 
-def test_run_reads_standard_input(built: Path, monkeypatch: pytest.MonkeyPatch, ial: Cli) -> None:
-    import io
-    import sys
-
-    from ial.cli import bounce_run
-
-    monkeypatch.setattr(bounce_run, "sys", type("Sys", (), {"stdin": io.StringIO("0011\n")}))
-    assert bounce_run._read(Path("-")) == "0011\n"
-    assert sys.stdin is not bounce_run.sys.stdin
+def test_run_reads_standard_input(ial: Cli, built: Path) -> None:
+    stream = stream_of(built)
+    result = CliRunner().invoke(app, ["bounce", "run", str(built), "--file", "-"], input=f"{stream[:9]}\n{stream[9:]}\n")
+    assert result.exit_code == 0
+    assert result.stdout == ial("bounce", "run", built, "--stream", stream).stdout
 
 
 def test_a_robot_that_is_not_localized_or_elsewhere(ial: Cli, built: Path) -> None:
@@ -154,3 +154,21 @@ def test_bad_filters_and_streams_are_refused(refused: Callable[..., str], built:
     assert "truncated" in refused("bounce", "run", "cut.npz", "--stream", "0")
     Path("bad.txt").write_bytes(b"\xff")
     assert "no text" in refused("bounce", "run", built, "--file", "bad.txt")
+
+
+def blocks(kind: str) -> list[str]:
+    """The blocks of the page about the bouncing robot that are marked so."""
+    page = (Path(__file__).resolve().parents[2] / "docs" / "bouncing.md").read_text(encoding="utf-8")
+    return re.findall(rf"```{kind}\n(.*?)```", page, re.DOTALL)
+
+
+def test_the_page_shows_what_is_printed(ial: Cli, capsys: pytest.CaptureFixture[str]) -> None:
+    polygon, printed = blocks("text")
+    Path("hall.wkt").write_text(polygon)
+    Path("store.json").write_text(blocks("json")[0])
+    (console,) = blocks("console")
+    for entry in console.split("$ ial ")[1:]:
+        command, _, output = entry.partition("\n")
+        assert ial(*shlex.split(command)).stdout == output
+    exec(blocks("python")[0], {})
+    assert capsys.readouterr().out == printed
