@@ -12,12 +12,12 @@ _LARGEST_FILE = 2**26  # bytes
 
 @dataclass(frozen=True)
 class Environment:
-    """The free space of a robot: one polygon, or several that do not overlap. Everything else is obstacle.
+    """The free space of a robot: one polygon, or several. Everything else is obstacle.
 
     Parameters
     ----------
     polygons
-        The parts of the free space, in metres.
+        The parts of the free space, in metres. Under the rule `inside` a cell is free if it lies in one of them.
     cell
         The width of the cells it was drawn with, if it comes from an occupancy grid.
 

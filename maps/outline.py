@@ -81,7 +81,7 @@ def outlines(free: MaskArray, cell: Fraction = Fraction(1)) -> tuple[Polygon, ..
 
     Returns
     -------
-    tuple of Polygon
+    tuple
         Corners are multiples of the width of a cell. Rings that would pass a corner twice are split there, so that rings touch.
 
     Raises

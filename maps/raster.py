@@ -103,30 +103,27 @@ def _centres(every: list[tuple[Point, Point]], scale: int, rows: int) -> Iterato
         low, high = sorted((a[1], b[1]))
         for row in range(max(-((scale // 2 - low) // scale), 0), min((high - scale // 2) // scale + 1, rows)):
             reached[row].append((a, b))
+    half = scale // 2
     for row, near in enumerate(reached):
-        y = row * scale + scale // 2
+        y = row * scale + half
         for above in (True, False):
-            cut = [
-                Fraction((b[0] - a[0]) * (y - a[1]), b[1] - a[1]) + a[0]
-                for a, b in near
-                if a[1] != b[1] and (y < max(a[1], b[1]) if above else y > min(a[1], b[1]))
-            ]
+            cut = [_at(a, b, y) for a, b in near if a[1] != b[1] and (y < max(a[1], b[1]) if above else y > min(a[1], b[1]))]
             cut.sort()
             for left, right in zip(cut[::2], cut[1::2], strict=True):
-                yield row, math.ceil(left / scale - Fraction(1, 2)), math.floor(right / scale - Fraction(1, 2)) + 1
+                yield row, int(-((half - left) // scale)), int((right - half) // scale) + 1
 
 
 def _crossed(every: list[tuple[Point, Point]], scale: int) -> Iterator[tuple[int, int, int]]:
     """Yield runs of the cells whose open squares an edge meets."""
     for a, b in every:
-        (x0, y0), (x1, y1) = sorted((a, b), key=lambda point: (point[1], point[0]))
-        for row in range(y0 // scale, -(-y1 // scale)):
+        bottom, top = sorted((a[1], b[1]))
+        for row in range(bottom // scale, -(-top // scale)):
             # Where the edge lies in the open strip of the row, it spans these columns; their ends are met by no open square.
-            low, high = max(row * scale, y0), min((row + 1) * scale, y1)
-            ends = sorted((_at(x0, y0, x1, y1, low), _at(x0, y0, x1, y1, high)) if y0 < y1 else (Fraction(x0), Fraction(x1)))
-            yield row, math.floor(ends[0] / scale), math.ceil(ends[1] / scale)
+            low, high = max(row * scale, bottom), min((row + 1) * scale, top)
+            left, right = sorted((_at(a, b, low), _at(a, b, high)) if bottom < top else (a[0], b[0]))
+            yield row, int(left // scale), int(-(-right // scale))
 
 
-def _at(x0: int, y0: int, x1: int, y1: int, y: int) -> Fraction:
+def _at(a: Point, b: Point, y: int) -> int | Fraction:
     """Return the x at which an edge that is not horizontal passes a y."""
-    return x0 + Fraction((x1 - x0) * (y - y0), y1 - y0)
+    return a[0] if a[0] == b[0] else a[0] + Fraction((b[0] - a[0]) * (y - a[1]), b[1] - a[1])

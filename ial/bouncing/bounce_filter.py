@@ -67,6 +67,16 @@ class BounceFilter:
         headings = self.setting.headings
         return HeadingClasses.merged(headings) if self.setting.merged else HeadingClasses.single(headings)
 
+    @property
+    def trapped(self) -> int:
+        """In how many configurations a robot is so near to obstacles all around that it can only turn on the spot, for ever."""
+        places = self.places
+        following = places.following
+        turning = (places.row[following] == places.row) & (places.column[following] == places.column)
+        for _ in range(self.setting.headings.orbit):  # after so many bumps it has its first heading again
+            turning = turning & turning[following]
+        return int(self._classes.sizes[places.heading_class[turning]].sum())
+
     def where(self, state: int) -> list[Place]:
         """Return where the robot can be in a state of a knowledge cycle; nothing for other states, whose sets are not kept."""
         if not self.table.is_localized(state):

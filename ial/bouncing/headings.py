@@ -94,7 +94,7 @@ class Headings:
 
     @cached_property
     def offsets(self) -> npt.NDArray[np.int32]:
-        """The (columns, rows) by which a step moves, int32 of shape (count, 2): step·(cos, sin), rounded with halves away from zero."""
+        """The (columns, rows) of each step, int32 of shape (headings, 2); step·(cos, sin) rounded, with halves away from zero."""
         found = np.empty((self.count, 2), dtype=np.int32)
         for heading in range(self.count):
             part = Fraction(heading, self.count)

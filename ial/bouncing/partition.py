@@ -16,12 +16,13 @@ from ial.contractors.kernels import kernel
 def _inverse(successors, letter, starts, sources):  # type: ignore[no-untyped-def]
     """Fill the lists of the states whose successor is each state."""
     count = len(successors)
-    starts[:] = 0
+    for state in range(count + 1):
+        starts[state] = 0
     for state in range(count):
         starts[successors[state, letter] + 1] += 1
     for state in range(count):
         starts[state + 1] += starts[state]
-    place = starts[:count].copy()
+    place = starts.copy()
     for state in range(count):
         to = successors[state, letter]
         sources[place[to]] = state
@@ -58,7 +59,8 @@ def _refine(successors, initial, blocks):  # type: ignore[no-untyped-def]
         block = waiting[pending]
         size = stop[block] - first[block]
         # What waits is split by the block as it is now. If it is split itself meanwhile, its new part waits for all letters anyway.
-        splitter[:size] = elements[first[block] : stop[block]]
+        for i in range(size):
+            splitter[i] = elements[first[block] + i]
         for letter in range(letters):
             met = 0
             for i in range(size):

@@ -38,9 +38,21 @@ def _remixed(x):  # type: ignore[no-untyped-def]
 
 @kernel
 def _grown(array, size):  # type: ignore[no-untyped-def]
-    """Return a copy of an array with room for so many rows."""
-    larger = np.empty((size, *array.shape[1:]), dtype=array.dtype)
-    larger[: len(array)] = array
+    """Return a copy of an array with room for so many numbers."""
+    # Slices would say it shorter, and take seconds to compile: here and below.
+    larger = np.empty(size, dtype=array.dtype)
+    for at in range(len(array)):
+        larger[at] = array[at]
+    return larger
+
+
+@kernel
+def _grown_rows(array, size):  # type: ignore[no-untyped-def]
+    """Return a copy of a table with room for so many rows."""
+    larger = np.empty((size, array.shape[1]), dtype=array.dtype)
+    for at in range(len(array)):
+        for column in range(array.shape[1]):
+            larger[at, column] = array[at, column]
     return larger
 
 
@@ -163,8 +175,8 @@ def construct(arcs, weights, parts, most):  # type: ignore[no-untyped-def]
                         return TOO_MANY, states, successors, sizes, sums, cycles, anchors, anchor_starts, members
                     if states == room:
                         room *= 2
-                        successors, parents = _grown(successors, room), _grown(parents, room)
-                        sizes, sums = _grown(sizes, room), _grown(sums, room)
+                        successors, parents = _grown_rows(successors, room), _grown(parents, room)
+                        sizes, sums = _grown_rows(sizes, room), _grown_rows(sums, room)
                     sizes[states, 0], sizes[states, 1], parents[states] = after - end, weight, states
                     sums[states, 0], sums[states, 1], sums[states, 2] = first, second, met
                     table[slot] = states
@@ -186,7 +198,8 @@ def construct(arcs, weights, parts, most):  # type: ignore[no-untyped-def]
                 size = np.int64(stop - begin)
                 while anchor_starts[cycles] + size > len(members):
                     members = _grown(members, 2 * len(members))
-                members[anchor_starts[cycles] : anchor_starts[cycles] + size] = now[begin:stop]
+                for i in range(size):
+                    members[anchor_starts[cycles] + i] = now[begin + i]
                 anchors[cycles] = state
                 anchor_starts[cycles + 1] = anchor_starts[cycles] + size
                 cycles += 1
@@ -204,7 +217,8 @@ def depth_and_colours(successors, anchors, colours):  # type: ignore[no-untyped-
     Without the cycles the automaton is a directed acyclic graph: its states are passed in topological order.
     """
     count = len(successors)
-    colours[:] = 1
+    for state in range(count):
+        colours[state] = 1
     for cycle in range(len(anchors)):
         state = anchors[cycle]
         while colours[state] == 1:

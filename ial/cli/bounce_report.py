@@ -20,6 +20,7 @@ def about(made: BounceFilter) -> dict[str, Any]:
         "step_m": float(setting.headings.step * setting.cell),
         "radius_m": float(setting.radius),
         "configurations": int(table.uncertainty[0]),
+        "trapped": made.trapped,
         "states": len(table) - 1,
         "knowledge_cycles": [
             {
@@ -47,3 +48,5 @@ def lines(record: Mapping[str, Any]) -> Iterator[str]:
         if sizes[0] < sizes[-1]
         else (f"a localized robot is in {sizes[0]} configuration{'s' * (sizes[0] != 1)}")
     )
+    if record["trapped"]:
+        yield f"in {record['trapped']} configurations the robot is trapped: it can only turn on the spot"

@@ -22,6 +22,9 @@ def drawn(text: str) -> MaskArray:
     return np.array([[char == "." for char in line] for line in text.split()][::-1])
 
 
+HALL, STORE = drawn("....... ....... ....... ..#.... ......."), drawn(".....# ...... ..#... ...... #.....")
+
+
 def random_mask(seed: int, rows: int = 7, columns: int = 8) -> MaskArray:
     """A room with a quarter of its cells blocked."""
     free = np.random.default_rng(seed).random((rows, columns)) > 0.25
