@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes
+from ial.contractors.paving.clusters import cluster
 from ial.contractors.paving.limits import Deadline
 from ial.contractors.paving.paver import pave
 from ial.contractors.paving.waiting import Order
@@ -23,6 +24,7 @@ from ial.lidar.pose_set import PoseSet, join, unite
 from ial.lidar.prediction import in_rows, move
 from ial.lidar.sheets import Sheet, Sheets
 from ial.lidar.tiles import Tiles
+from ial.lidar.trimming import trim
 from ial.maps.occupancy_grid import FREE, UNKNOWN, OccupancyGrid, check_usable
 from ial.maps.symmetry import symmetries
 from ial.membership import Model
@@ -37,6 +39,7 @@ _LAID_OUT_CELLS = 1 << 17  # above, a set is laid out coarser, and refined by th
 _SEARCHING = 0.5  # the share of a scan's time that searches may take; laying out the set and telling its hypotheses apart takes the rest
 _CELLS_PER_S = 2.5e5  # that are laid out where time is limited, for each second of it
 _MANY = 1 << 12  # boxes of a set
+_TRIMMED = 1 << 10  # the same
 _FIRST_TILES = 16  # that are tried while it is not known how long one takes
 
 
@@ -211,6 +214,28 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         bad = count_blocked(cells, bad, reading, self.lattice.parts, sheet.occupied, sheet.bits, self.config.bounds.map_error_m)
         rows = bad <= reading.outliers
         return cells[rows], bad[rows]
+
+    def trim(self, poses: PoseSet, reading: Beams) -> PoseSet:
+        """Return what a scan has left, its hypotheses cut to their outermost pieces that may hold a consistent pose.
+
+        Only a set of few cells is worth it. Cells that are carried on are not cut: a set that reaches a little farther forgives more.
+        """
+        halvings = self.config.precision.halvings
+        if not halvings or not reading.informative or poses.limited or not 0 < len(poses) <= _TRIMMED or poses.carried.any():
+            return poses
+        clusters = cluster(poses.boxes, circular=(2,))
+        lowest = self.lattice.layer(clusters.hulls)[clusters.labels]
+        layers = (self.lattice.layer(poses.boxes) - lowest) % self.lattice.layers
+        allowed = reading.allowing(poses.outliers)
+        lower, upper = poses.boxes.lower.copy(), poses.boxes.upper.copy()
+        kept = np.zeros(len(poses), dtype=np.bool_)
+        for key, rows, part in self.sheets.parts(poses.boxes):
+            occupied = self.sheets[key].occupied
+            cut, kept[rows] = trim(part, clusters.labels[rows], layers[rows], allowed, occupied, self.config.bounds.map_error_m, halvings)
+            lower[rows], upper[rows] = cut.lower, cut.upper
+        if not kept.any():
+            return poses
+        return replace(poses, boxes=Boxes(lower, upper)[kept], carried=poses.carried[kept], bad=poses.bad[kept])
 
     def symmetries(self) -> tuple[Pose, ...]:
         """Return the rotations of the map frame after which no scan can tell the difference."""

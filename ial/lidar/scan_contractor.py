@@ -15,7 +15,7 @@ from ial.maps.cell_index import BORDER, CellIndex
 
 
 @kernel
-def _fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit):  # type: ignore[no-untyped-def]
+def fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit):  # type: ignore[no-untyped-def]
     """Return whether at most q beams certainly miss every occupied cell from all of a box, whose bounds are given in cells.
 
     A beam fails if the rectangle of its possible end points meets no occupied cell: four look-ups in the summed-area table.
@@ -56,7 +56,7 @@ def _test(start, stop, order, lower, upper, ends, directions, errors, q, map_err
         near = min(xl, yl) >= -NEAR and max(xu, yu) <= NEAR  # elsewhere the indices would not be right, so the box is kept
         xl, yl = xl + OFFSET, yl + OFFSET
         xu, yu = xu + (OFFSET + 1.0), yu + (OFFSET + 1.0)
-        keep[row] = not near or _fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit)
+        keep[row] = not near or fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit)
 
 
 @kernel

@@ -1,6 +1,7 @@
 """A map in sheets gives the answers of the map in one piece."""
 
 import math
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -24,7 +25,7 @@ from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 
 MOTION = MotionBounds(ErrorBound(0.05, 0.1, 0.0), ErrorBound(0.03, 0.0, 0.1))
-CONFIG = LocalizerConfig(bounds=Bounds(0.03, 0.0, 0.02, MOTION), precision=Precision(0.1, 0.05))
+CONFIG = LocalizerConfig(bounds=Bounds(0.03, 0.0, 0.02, MOTION), precision=Precision(0.1, 0.05, halvings=0))
 LIDAR = Lidar(beams=72, angle_min=-math.pi, angle_increment=math.pi / 36.0, range_max=8.0)
 
 
@@ -84,6 +85,22 @@ def test_answers_do_not_depend_on_sheets(seed: int, outliers: int | str, small_s
         assert in_sheets.locate(step.scan).poses.boxes.volume() == pytest.approx(whole.locate(step.scan).poses.boxes.volume())
     assert "lost" in statuses
     assert len(in_sheets.model.sheets._made) == 4
+
+
+def test_a_hypothesis_that_lies_in_several_sheets_is_trimmed_in_each(small_sheets: None) -> None:
+    config = replace(CONFIG, precision=Precision(0.1, 0.05, halvings=2))
+    localizer = Localizer(world(), config=config)
+    border = 64 * localizer.model.lattice.position_m
+    path = [Pose(border - 0.03 + 0.01 * number, 2.0, 0.1 * number) for number in range(6)]
+    assert all(localizer.model.in_domain(pose) for pose in path)
+    recording = simulate(world(), path, LIDAR, SensorErrors(0.03, 0.0, 4), MOTION, 1).recording
+    across = 0
+    for pose, step in zip(path, steps(recording, MOTION), strict=True):
+        found = localizer.update(step.motion, step.scan)
+        assert found.poses.contains(world().pose_to_grid(pose))
+        across += len(list(localizer.model.sheets.parts(localizer.poses.boxes))) > 1
+        assert found.poses.boxes.volume() < localizer.poses.boxes.volume()
+    assert across >= 3
 
 
 def test_a_limit_leaves_a_coarser_answer_with_the_truth_in_it(small_sheets: None) -> None:
