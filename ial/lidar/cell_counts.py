@@ -162,7 +162,7 @@ def count_cells(
     levels = min(_LEVELS, lattice.layers.bit_length() - 1)
     places = tiles.keys >> np.array([levels, 0, 0])
     order = np.lexsort((tiles.keys[:, 0], *places.T[::-1]))
-    runs = np.flatnonzero(np.append(True, (np.diff(places[order], axis=0) != 0).any(axis=1)))
+    runs = np.flatnonzero(np.append(True, (np.diff(places[order], axis=0) != 0).any(axis=1))[: len(order)])
     run(
         _count,
         len(runs),

@@ -185,12 +185,14 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         start = 0
         while start < len(tiles.keys):
             portion = deadline.portion(min(_CHUNK, len(tiles.keys) - start))
+            if not portion:
+                return PoseSet(boxes, limited="time")
             part = Tiles(tiles.keys[start : start + portion], tiles.words[start : start + portion])
             words, least = count_cells(part, self.lattice, reading, sheet.occupied, sheet.domain, self.config.bounds.map_error_m)
             left = Tiles(part.keys, words)
             total += len(left)
-            if not portion or total > self.config.max_boxes:
-                return PoseSet(boxes, limited="boxes" if portion else "time")
+            if total > self.config.max_boxes:
+                return PoseSet(boxes, limited="boxes")
             cells, bad = self._looked_along(sheet, self.lattice.boxes(left), left.values(least), reading)
             found.append(cells)
             counts.append(bad)
