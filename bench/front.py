@@ -24,8 +24,8 @@ Odd scans, maps of the even ones, all else as in the default configuration. Half
 hypothesis, among the scans from the first that had one. The goal is 0.10 m and 2.5° at 0.98 contained."""
 LOGS = {"intel_lab": "intel-corrected.log.gz", "freiburg_079": "freiburg-079-corrected.log.gz"}
 ERRORS = ((0.05, 0.0, 0.05), (0.03, 0.005, 0.04), (0.03, 0.005, 0.03), (0.02, 0.005, 0.03))
-OUTLIERS: tuple[tuple[Outliers, float], ...] = ((0.2, 0.0), (0.12, 0.0), ("auto", 0.03), ("auto", 0.05), ("auto", 0.06), ("auto", 0.08))
-PRECISIONS = (Precision(0.1, 0.025), Precision(0.05, 0.0125))
+OUTLIERS: tuple[tuple[Outliers, float], ...] = ((0.2, 0.0), ("auto", 0.05), ("auto", 0.07), ("auto", 0.08), ("auto", 0.1), ("auto", 0.13))
+PRECISIONS = (Precision(halvings=0), Precision(), Precision(halvings=4))
 
 
 def measure(name: str, recording: InMemoryRecording, config: LocalizerConfig) -> Iterator[str]:
@@ -45,7 +45,7 @@ def measure(name: str, recording: InMemoryRecording, config: LocalizerConfig) ->
     yield name
     yield f"{bounds.range_error_m:g} m, {bounds.bearing_error_rad:g} rad, {bounds.map_error_m:g} m"
     yield f"auto + {config.outlier_margin:g}" if config.outliers == "auto" else f"{config.outliers:g}"
-    yield f"{config.precision.position_m:g} m, {config.precision.heading_rad:g} rad"
+    yield str(config.precision.halvings)
     yield f"{statistics.median(each[0] for each in widths):.3f} m, {math.degrees(statistics.median(each[1] for each in widths)):.1f}°"
     yield f"{summary['contained']:.4f}"
     yield f"{since.count(1) / len(since):.3f}" if since else "–"
@@ -68,7 +68,7 @@ def main() -> None:
     parser.add_argument("--stop", type=int, help="only the scans before this one of each recording")
     chosen = parser.parse_args()
     report = Report("Width against containment", ABOUT)
-    head = "recording|bounds: range, bearing, map|outliers|precision|half-widths|contained|unique|assumptions|contained when they hold|ms"
+    head = "recording|bounds: range, bearing, map|outliers|halvings|half-widths|contained|unique|assumptions|contained when they hold|ms"
     for name, log in LOGS.items():
         readings = open_recording(Path(os.environ["IAL_DATA"]) / name / log).readings()
         recording = InMemoryRecording(name, [each for each in readings if chosen.stop is None or each.index < chosen.stop])

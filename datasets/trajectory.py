@@ -136,6 +136,12 @@ def _parse(path: Path, number: int, words: list[str]) -> tuple[int, Pose]:
     return stamp, Pose.from_quaternion(x, y, qz, qw)
 
 
+def tum_line(stamp_ns: int, pose: Pose) -> str:
+    """Return the line of one pose, with its end: the stamp exact to the nanosecond and the rest to the last bit."""
+    z, w = pose.quaternion()
+    return f"{format_stamp(stamp_ns)} {pose.x!r} {pose.y!r} 0 0 0 {z!r} {w!r}\n"
+
+
 def write_tum(trajectory: Trajectory, path: str | Path) -> None:
     """Write ``stamp x y z qx qy qz qw`` lines, the stamp exact to the nanosecond and the rest to the last bit.
 
@@ -151,9 +157,7 @@ def write_tum(trajectory: Trajectory, path: str | Path) -> None:
     try:
         with temporary.open("w", encoding="utf-8") as file:
             for row, stamp in enumerate(trajectory.stamps_ns.tolist()):
-                pose = trajectory[row]
-                z, w = pose.quaternion()
-                file.write(f"{format_stamp(stamp)} {pose.x!r} {pose.y!r} 0 0 0 {z!r} {w!r}\n")
+                file.write(tum_line(stamp, trajectory[row]))
         temporary.replace(path)
     except OSError as error:
         temporary.unlink(missing_ok=True)

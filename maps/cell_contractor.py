@@ -54,6 +54,8 @@ class CellContractor(Contractor):
     dimension = 2
 
     def __init__(self, index: CellIndex) -> None:
+        if index.origin != (0, 0):
+            raise ValueError(f"the index is that of a part of a grid, from cell {index.origin} on; give one of the whole grid")
         self._index = index
 
     def complement(self) -> "OutsideCells":

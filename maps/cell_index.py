@@ -53,23 +53,24 @@ def _accumulate(mask, table):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def cells_met(inverse_resolution, lower, upper, cells):  # type: ignore[no-untyped-def]
+def cells_met(inverse_resolution, lower, upper, origin, cells):  # type: ignore[no-untyped-def]
     """Return (first, stop): the closed interval meets the closed cells first … stop − 1 of those along one axis, and perhaps no others.
 
-    The range is clamped to 0 … cells, and first >= stop where the interval lies outside. Bounds may be infinite, not NaN.
+    They are counted from the cell `origin` on and clamped to 0 … cells; first >= stop where the interval lies outside. Bounds may be
+    infinite, not NaN.
     """
-    first = np.floor(lower * inverse_resolution - SLACK)  # the slack reaches the cell to the left of an edge, too
-    stop = np.floor(upper * inverse_resolution + SLACK) + 1.0
+    first = np.floor(lower * inverse_resolution - SLACK) - origin  # the slack reaches the cell to the left of an edge, too
+    stop = np.floor(upper * inverse_resolution + SLACK) + 1.0 - origin
     return int(min(max(first, 0.0), cells)), int(max(min(stop, cells), 0.0))
 
 
 @kernel
-def meets(table, inverse_resolution, xl, xu, yl, yu):  # type: ignore[no-untyped-def]
+def meets(table, origin, inverse_resolution, xl, xu, yl, yu):  # type: ignore[no-untyped-def]
     """Return whether a rectangle meets a cell of the set; never False where it does. An empty rectangle meets nothing."""
     if not (xl <= xu and yl <= yu):
         return False
-    column0, column1 = cells_met(inverse_resolution, xl, xu, table.shape[1] - 1)
-    row0, row1 = cells_met(inverse_resolution, yl, yu, table.shape[0] - 1)
+    column0, column1 = cells_met(inverse_resolution, xl, xu, origin[1], table.shape[1] - 1)
+    row0, row1 = cells_met(inverse_resolution, yl, yu, origin[0], table.shape[0] - 1)
     return column0 < column1 and row0 < row1 and count(table, row0, row1, column0, column1) > 0
 
 
@@ -88,7 +89,7 @@ def edge_above(index, resolution):  # type: ignore[no-untyped-def]
 @kernel
 def _trimmed(inverse_resolution, resolution, lower, upper, cells):  # type: ignore[no-untyped-def]
     """Return `cells_met` without the outermost cells that the slack alone let in: exactly the cells that are met."""
-    first, stop = cells_met(inverse_resolution, lower, upper, cells)
+    first, stop = cells_met(inverse_resolution, lower, upper, 0, cells)
     # A number lies below a double exactly if the largest double that is not above it does.
     if first < stop and edge_below(first + 1, resolution) < lower:
         first += 1
@@ -143,9 +144,9 @@ def contract(table, inverse_resolution, resolution, xl, xu, yl, yu):  # type: ig
 
 
 @kernel
-def _meet_rows(start, stop, table, inverse_resolution, lower, upper, found):  # type: ignore[no-untyped-def]
+def _meet_rows(start, stop, table, origin, inverse_resolution, lower, upper, found):  # type: ignore[no-untyped-def]
     for i in range(start, stop):
-        found[i] = meets(table, inverse_resolution, lower[i, 0], upper[i, 0], lower[i, 1], upper[i, 1])
+        found[i] = meets(table, origin, inverse_resolution, lower[i, 0], upper[i, 0], lower[i, 1], upper[i, 1])
 
 
 class CellIndex:
@@ -159,6 +160,8 @@ class CellIndex:
         The width of a cell in metres.
     compact
         Count in 16 bits, modulo 2¹⁶: half the memory. Rectangles of 2¹⁶ cells or more are then taken to meet the set.
+    origin
+        Row and column of the mask's first cell in the grid, if the mask is a part of a larger one.
 
     Attributes
     ----------
@@ -167,6 +170,8 @@ class CellIndex:
         columns below j.
     bordered
         The same table with `BORDER` more columns on either side, contiguous; `table` is a view of it.
+    origin
+        Row and column of its first cell in the grid.
     resolution, inverse_resolution
         The width of a cell, and 1 / resolution rounded to nearest.
 
@@ -176,7 +181,7 @@ class CellIndex:
         If the mask is empty, too large or no two-dimensional mask, or the resolution cannot be meant.
     """
 
-    def __init__(self, mask: npt.NDArray[np.bool_], resolution: float, compact: bool = False) -> None:
+    def __init__(self, mask: npt.NDArray[np.bool_], resolution: float, compact: bool = False, origin: tuple[int, int] = (0, 0)) -> None:
         if mask.ndim != 2 or mask.dtype != np.bool_:
             raise MapError(f"the mask is an array of {mask.dtype} with shape {mask.shape}; give bool with shape (rows, columns)")
         check_size(*mask.shape)
@@ -188,6 +193,7 @@ class CellIndex:
         )
         _accumulate(mask, self.bordered)
         self.table = self.bordered[:, BORDER : BORDER + columns + 1]
+        self.origin = origin
         self.resolution = float(resolution)
         self.inverse_resolution = 1.0 / self.resolution
 
@@ -201,7 +207,7 @@ class CellIndex:
         """
         _check_plane(boxes)
         found = np.empty(len(boxes), dtype=np.bool_)
-        threads.run(_meet_rows, len(boxes), self.table, self.inverse_resolution, boxes.lower, boxes.upper, found)
+        threads.run(_meet_rows, len(boxes), self.table, self.origin, self.inverse_resolution, boxes.lower, boxes.upper, found)
         return found
 
 

@@ -4,7 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PlainValidator
 
-from ial.lidar.config import LocalizerConfig
+from ial.lidar.config import LARGEST_HALVINGS, LocalizerConfig
 from ial.results.config_record import config_of
 
 
@@ -72,6 +72,14 @@ class SizeKeys(_Keys):
     heading_rad: Size = Field(description="of the heading, rad")
 
 
+class PrecisionKeys(SizeKeys):
+    """How fine an answer is."""
+
+    halvings: Annotated[int, BeforeValidator(_number), Field(ge=0, le=LARGEST_HALVINGS)] = Field(
+        description="how often the outermost cells of an answer are halved, to cut off what holds no pose"
+    )
+
+
 class FreeSpaceKeys(_Keys):
     """Whether and how beams say that nothing stands in their way."""
 
@@ -96,7 +104,7 @@ class ConfigKeys(_Keys):
     max_outliers: Share = Field(description="with auto: a scan that needs more is rejected, a number or a fraction")
     max_jump: Share = Field(description="with auto: so is one that needs so many more than the one before, a number or a fraction")
     free_space: FreeSpaceKeys = Field(description="what beams say about free space")
-    precision: SizeKeys = Field(description="the widths below which a box is not bisected")
+    precision: PrecisionKeys = Field(description="the widths below which a box is not bisected, and how the border is drawn")
     max_boxes: Count = Field(description="a search with more boxes ends with a coarser answer")
     max_beams: Count = Field(description="how many beams of a scan are used at most")
     deskew: bool = Field(description="whether the motion during a scan is taken out, where it is known")

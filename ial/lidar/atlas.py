@@ -161,7 +161,7 @@ class Atlas:
             model.start_clock()
         beams = scan_beams(scan, self.config)
         rejection = self._filter.update(motion, beams)
-        states = self.poses
+        states = {name: self.model.models[name].trim(poses, beams) for name, poses in self.poses.items()}
         hypotheses = {name: find_hypotheses(poses, self.grids[name], counted=beams.informative) for name, poses in states.items()}
         every = tuple(each for found in hypotheses.values() for each in found)
         found = any(not poses.carried.all() for poses in states.values() if len(poses))

@@ -1,7 +1,7 @@
 """How many beams fail from each cell of a lattice: the search's last levels, all at once.
 
-A cell is divided into parts, as wide as a cell of the map and half a layer of headings each. For one beam and one interval of headings the
-rectangles of end points of neighbouring parts are neighbours in the map, a cell apart, so eight of them are looked up together.
+Cells that differ only in their layers are tried together: first with the whole interval of headings that they span, then with its halves,
+and so on down to half a layer. Most cells of a prediction fail at once for several layers.
 """
 
 import functools
@@ -13,175 +13,109 @@ import numpy.typing as npt
 from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 from ial.lidar.beams import Beams
-from ial.lidar.count_empty import LANES, count_empty
 from ial.lidar.end_points import MARGIN, relative_bounds
 from ial.lidar.lattice import Lattice, layer_edges
+from ial.lidar.tile_counts import count_tile, list_segments, place, working_space
 from ial.lidar.tiles import TILE_COLUMNS, TILE_ROWS, Tiles, WordArray
 from ial.maps.cell_index import BORDER, CellIndex
 
 LARGEST_COUNT = 1 << 14
 
-_SEGMENT = BORDER // LANES  # groups of lanes in one segment: what a table's border allows
-_NEVER = 1 << 20  # more than any number of beams: a part outside the domain
-_BEAMS_PER_CHECK = 8
+_LEVELS = 3  # blocks of 2³ layers: 11° with the default precision
 _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
 @kernel
-def _clamped(value, low, high):  # type: ignore[no-untyped-def]
-    return min(max(value, low), high)
-
-
-@kernel
-def _place(bounds, drift, places):  # type: ignore[no-untyped-def]
-    """Write which table corners belong to each beam from the part whose lower corner is the origin: left, below, right, above."""
-    for i in range(len(bounds)):
-        places[i, 0] = int(np.floor(bounds[i, 0]))
-        places[i, 1] = int(np.floor(bounds[i, 1]))
-        places[i, 2] = int(np.floor(bounds[i, 2] + drift)) + 2
-        places[i, 3] = int(np.floor(bounds[i, 3] + drift)) + 2
-
-
-@kernel
-def _add_empty(flat, stride, limits, places, rows, first, groups, counts, at):  # type: ignore[no-untyped-def]
-    """Add 1 to the counts of the parts of a segment, in table row `rows` from column `first` on, whose rectangle is empty."""
-    row_limit, column_limit = limits
-    left = _clamped(first + places[0], -BORDER, column_limit) + BORDER
-    right = _clamped(first + places[2], -BORDER, column_limit) + BORDER
-    below = _clamped(rows + places[1], 0, row_limit) * stride
-    above = _clamped(rows + places[3], 0, row_limit) * stride
-    for group in range(groups):
-        step = group * LANES
-        count_empty(flat, above + right + step, above + left + step, below + right + step, below + left + step, counts, at + step)
-
-
-@kernel
-def _segments(words, row0, column0, parts, segments):  # type: ignore[no-untyped-def]
-    """List the runs of parts that hold the set cells of a tile; return how many.
-
-    A row holds the table row, the first column, the number of groups of lanes, and the place of the first count.
-    """
-    found = at_count = 0
+def _without(words, least, most, left):  # type: ignore[no-untyped-def]
+    """Write the set cells of a tile without those whose count is above `most`."""
     for y in range(TILE_ROWS):
         word = words[y]
-        if word == np.uint64(0):
-            continue
-        low, high = 0, TILE_COLUMNS - 1
-        while not (word >> np.uint64(low)) & np.uint64(1):
-            low += 1
-        while not (word >> np.uint64(high)) & np.uint64(1):
-            high -= 1
-        first, stop = low * parts, (high + 1) * parts
-        for part in range(parts):
-            at = first
-            while at < stop:
-                groups = min((stop - at + LANES - 1) // LANES, _SEGMENT)
-                segments[found, 0] = row0 + y * parts + part
-                segments[found, 1] = column0 + at
-                segments[found, 2] = groups
-                segments[found, 3] = at_count
-                at_count += groups * LANES
-                found += 1
-                at += groups * LANES
-    return found
+        if word:
+            for x in range(TILE_COLUMNS):
+                if least[y, x] > most:
+                    word &= ~(np.uint64(1) << np.uint64(x))
+        left[y] = word
 
 
 @kernel
-def _trim(segments, found, most, counts):  # type: ignore[no-untyped-def]
-    """Take the groups without a promising part off both ends of the segments; return whether any group is left."""
-    left = False
-    for k in range(found):
-        first, groups, at = segments[k, 1], segments[k, 2], segments[k, 3]
-        while groups > 0 and not _promising(counts, at, most):
-            first += LANES
-            at += LANES
-            groups -= 1
-        while groups > 0 and not _promising(counts, at + (groups - 1) * LANES, most):
-            groups -= 1
-        segments[k, 1], segments[k, 2], segments[k, 3] = first, groups, at
-        left = left or groups > 0
-    return left
-
-
-@kernel
-def _promising(counts, at, most):  # type: ignore[no-untyped-def]
-    smallest = counts[at]
-    for lane in range(1, LANES):
-        smallest = min(smallest, counts[at + lane])
-    return smallest <= most
-
-
-@kernel
-def _count_tile(segments, found, row0, column0, parts, places, most, tables, counts, least):  # type: ignore[no-untyped-def]
-    """Lower `least` to the smallest count among the parts of each cell of a tile, for one interval of headings.
-
-    The segments are trimmed; counts above `most` are not finished.
-    """
-    flat, domain, stride, limits = tables
-    beams = len(places)
-    around = np.array([-1, -1, 2, 2])
-    for k in range(found):
-        row, first, groups, at = segments[k]
-        for i in range(at, at + groups * LANES):
-            counts[i] = 0
-        _add_empty(domain, stride, limits, around, row, first, groups, counts, at)
-        for i in range(at, at + groups * LANES):
-            counts[i] *= _NEVER
-    start = 0
-    left = _trim(segments, found, most, counts)
-    while start < beams and left:
-        stop = min(start + _BEAMS_PER_CHECK, beams)
-        for i in range(start, stop):
-            for k in range(found):
-                row, first, groups, at = segments[k]
-                if groups > 0:
-                    _add_empty(flat, stride, limits, places[i], row, first, groups, counts, at)
-        start = stop
-        left = _trim(segments, found, most, counts)
-    for k in range(found):
-        row, first, groups, at = segments[k]
-        y = (row - row0) // parts
-        for i in range(groups * LANES):
-            x = (first - column0 + i) // parts
-            if x < TILE_COLUMNS and counts[at + i] < least[y, x]:
-                least[y, x] = counts[at + i]
-
-
-@kernel
-def _count(start, stop, keys, words, edges, parts, evidence, most, map_error, grid, kept, least):  # type: ignore[no-untyped-def]
+def _place_node(node, half_layers, first, edges, evidence, map_error, grid, bounds, places):  # type: ignore[no-untyped-def]
+    """Write which table corners belong to each beam, for the headings of a node of the tree over a block."""
     ends, directions, errors = evidence
-    resolution, drift, table, domain = grid
-    flat = table.reshape(-1)
-    flat_domain = domain.reshape(-1)
-    stride = table.shape[1]
+    resolution, drift = grid[:2]
+    across = half_layers
+    level = 1
+    while level <= node >> 1:  # a level further down, intervals are half as wide
+        level <<= 1
+        across >>= 1
+    at = first + (node - level) * across
+    relative_bounds(edges[at], edges[at + across], ends, directions, errors, map_error, resolution, bounds)
+    place(bounds, drift, places)
+
+
+@kernel
+def _count(start, stop, runs, order, keys, words, levels, edges, parts, evidence, most, map_error, grid, kept, least):  # type: ignore[no-untyped-def]
+    """Count the failing beams for runs of tiles, which share their place and a block of 2**levels layers.
+
+    The headings of a block form a tree, numbered as a heap: node 1 is the block, nodes 2n and 2n + 1 are the halves of node n, and below
+    the layers lie half layers.
+    """
+    table, domain, row_origin, column_origin = grid[2:]
     limits = (table.shape[0] - 1, table.shape[1] - 1 - 2 * BORDER)
-    tables = (flat, flat_domain, stride, limits)
-    bounds = np.empty((len(ends), 4))
-    places = np.empty((2, len(ends), 4), dtype=np.int64)
-    longest = parts * (TILE_COLUMNS * parts // (_SEGMENT * LANES) + 1) * TILE_ROWS
-    segments = np.empty((longest, 4), dtype=np.int64)
-    counts = np.empty(TILE_ROWS * parts * (TILE_COLUMNS * parts + LANES), dtype=np.int32)
-    layer = -1
-    for tile in range(start, stop):
-        if keys[tile, 0] != layer:
-            layer = keys[tile, 0]
-            for half in range(2):
-                relative_bounds(
-                    edges[2 * layer + half], edges[2 * layer + half + 1], ends, directions, errors, map_error, resolution, bounds
-                )
-                _place(bounds, drift, places[half])
-        row0, column0 = keys[tile, 1] * TILE_ROWS * parts, keys[tile, 2] * TILE_COLUMNS * parts
-        least[tile, :, :] = LARGEST_COUNT
-        for half in range(2):
-            found = _segments(words[tile], row0, column0, parts, segments)
-            _count_tile(segments, found, row0, column0, parts, places[half], most, tables, counts, least[tile])
-        for y in range(TILE_ROWS):
-            word = words[tile, y]
-            if word:
-                for x in range(TILE_COLUMNS):
-                    if least[tile, y, x] > most:
-                        word &= ~(np.uint64(1) << np.uint64(x))
-            kept[tile, y] = word
+    tables = (table.reshape(-1), domain.reshape(-1), table.shape[1], limits)
+    beams = len(evidence[0])
+    layers = 1 << levels
+    bounds = np.empty((beams, 4))
+    places = np.empty((4 * layers, beams, 4), dtype=np.int64)
+    placed = np.zeros(4 * layers, dtype=np.bool_)
+    segments, counts = working_space(parts)
+    above = np.empty((TILE_ROWS, TILE_COLUMNS), dtype=np.int16)
+    left = np.empty((levels + 2, TILE_ROWS), dtype=np.uint64)  # what the nodes above a layer have left
+    left[0, :] = ~np.uint64(0)
+    nodes = np.empty(levels + 1, dtype=np.int64)  # and which nodes these are
+    block = -1
+    for number in range(start, stop):
+        tile = order[runs[number]]
+        if keys[tile, 0] >> levels != block:
+            block = keys[tile, 0] >> levels
+            placed[:] = False
+        row0 = keys[tile, 1] * TILE_ROWS * parts - row_origin
+        column0 = keys[tile, 2] * TILE_COLUMNS * parts - column_origin
+        nodes[:] = 0
+        for at in range(runs[number], runs[number + 1]):
+            tile = order[at]
+            leaf = layers + keys[tile, 0] - (block << levels)
+            least[tile, :, :] = LARGEST_COUNT
+            kept[tile, :] = np.uint64(0)
+            for level in range(levels + 1):
+                node = leaf >> (levels - level)
+                if nodes[level] == node:
+                    continue
+                nodes[level] = node
+                left[level + 1, :] = np.uint64(0)
+                alike = 0  # tiles below this node
+                for other in range(at, runs[number + 1]):
+                    if (layers + keys[order[other], 0] - (block << levels)) >> (levels - level) == node:
+                        alike += 1
+                        for y in range(TILE_ROWS):
+                            left[level + 1, y] |= words[order[other], y] & left[level, y]
+                if alike > 1 or level == levels:
+                    if not placed[node]:
+                        _place_node(node, 2 * layers, 2 * layers * block, edges, evidence, map_error, grid, bounds, places[node])
+                        placed[node] = True
+                    found = list_segments(left[level + 1], row0, column0, parts, segments)
+                    above[:, :] = LARGEST_COUNT
+                    count_tile(segments, found, row0, column0, parts, places[node], most, tables, counts, above)
+                    _without(left[level + 1], above, most, left[level + 1])
+            found = list_segments(left[levels + 1], row0, column0, parts, segments)
+            if not found:
+                continue
+            for node in range(2 * leaf, 2 * leaf + 2):
+                if not placed[node]:
+                    _place_node(node, 2 * layers, 2 * layers * block, edges, evidence, map_error, grid, bounds, places[node])
+                    placed[node] = True
+                found = list_segments(left[levels + 1], row0, column0, parts, segments)
+                count_tile(segments, found, row0, column0, parts, places[node], most, tables, counts, least[tile])
+            _without(left[levels + 1], least[tile], most, kept[tile])
 
 
 @functools.lru_cache(maxsize=16)
@@ -217,17 +151,26 @@ def count_cells(
     """
     kept, least = np.empty_like(tiles.words), np.empty((len(tiles.words), TILE_ROWS, TILE_COLUMNS), dtype=np.int16)
     rows, columns = occupied.table.shape
+    row_origin, column_origin = occupied.origin
     # A part is a little wider than a cell, since its width has 24 bits: so much further right, at most, do its last columns lie.
-    drift = (max(rows, columns) + TILE_COLUMNS * lattice.parts) * (lattice.part_m / occupied.resolution - 1.0) + MARGIN
+    farthest = max(rows + row_origin, columns + column_origin) + TILE_COLUMNS * lattice.parts
+    drift = farthest * (lattice.part_m / occupied.resolution - 1.0) + MARGIN
     order = _spread_order(len(beams.ends))
     evidence = (beams.ends[order], beams.directions[order], beams.errors[order])
-    grid = (occupied.resolution, drift, occupied.bordered, domain.bordered)
+    grid = (occupied.resolution, drift, occupied.bordered, domain.bordered, row_origin, column_origin)
     edges = layer_edges(2 * lattice.layers)
+    levels = min(_LEVELS, lattice.layers.bit_length() - 1)
+    places = tiles.keys >> np.array([levels, 0, 0])
+    order = np.lexsort((tiles.keys[:, 0], *places.T[::-1]))
+    runs = np.flatnonzero(np.append(True, (np.diff(places[order], axis=0) != 0).any(axis=1))[: len(order)])
     run(
         _count,
-        len(tiles.words),
+        len(runs),
+        np.append(runs, len(order)),
+        order,
         tiles.keys,
         tiles.words,
+        levels,
         edges,
         lattice.parts,
         evidence,
@@ -236,6 +179,6 @@ def count_cells(
         grid,
         kept,
         least,
-        minimum=4,
+        minimum=2,
     )
     return kept, least

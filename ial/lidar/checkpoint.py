@@ -112,6 +112,6 @@ class Checkpoint:
 def fingerprint(localizer: Localizer) -> str:
     """Return a text that differs where the map, the configuration, or the version of ial differs."""
     grid = localizer.grid
-    digest = hashlib.sha256(grid.cells.tobytes())
+    digest = hashlib.sha256(grid.cells.data)
     digest.update(repr((grid.cells.shape, grid.resolution, grid.origin, localizer.config, version("ial"))).encode())
     return digest.hexdigest()[:32]

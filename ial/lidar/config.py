@@ -13,6 +13,8 @@ Domain = Literal["free", "free_or_unknown"]
 Recovery = Literal["union", "restart"]
 Outliers = int | float | Literal["auto"]
 
+LARGEST_HALVINGS = 6  # beyond, pieces are finer than what the bounds of a beam leave open, and the time grows
+
 
 @dataclass(frozen=True)
 class LidarBounds:
@@ -101,7 +103,7 @@ class FreeSpace:
 
 @dataclass(frozen=True)
 class Precision:
-    """The size below which a box is no longer bisected.
+    """How fine an answer is: the size below which a box is no longer bisected, and how its border is drawn.
 
     Parameters
     ----------
@@ -109,12 +111,17 @@ class Precision:
         Width along x and y.
     heading_rad
         Width of the heading; the circle is divided into a power of two of equal parts of at most this width.
+    halvings
+        How often the outermost cells of an answer of few cells are halved, to cut off what holds no consistent pose; 0 leaves them whole.
     """
 
     position_m: float = 0.1
     heading_rad: float = 0.025
+    halvings: int = 2
 
     def __post_init__(self) -> None:
+        if isinstance(self.halvings, bool) or not isinstance(self.halvings, int) or not 0 <= self.halvings <= LARGEST_HALVINGS:
+            raise ConfigError(f"precision.halvings is {self.halvings!r}; give a whole number from 0 to {LARGEST_HALVINGS}")
         for name, least in (("position_m", 1e-3), ("heading_rad", 1e-3)):
             _check(f"precision.{name}", getattr(self, name), positive=True)
             if getattr(self, name) < least:
@@ -180,7 +187,7 @@ class LocalizerConfig:
 
     bounds: Bounds = field(default_factory=Bounds)
     outliers: Outliers = "auto"
-    outlier_margin: int | float = 0.06
+    outlier_margin: int | float = 0.08
     max_outliers: int | float = 0.3
     max_jump: int | float = 0.12
     free_space: FreeSpace = field(default_factory=FreeSpace)

@@ -163,7 +163,7 @@ def blocked(box, laser, ray, margin, table, upwards, rightwards):  # type: ignor
 def _block_rows(start, stop, order, lower, upper, parts, hits, rays, grid, least):  # type: ignore[no-untyped-def]
     ends, directions, errors, map_error = hits
     origins, angles, turns, lengths, numbers, margins = rays
-    resolution, bordered, table, upwards, rightwards = grid
+    resolution, bordered, table, origin, upwards, rightwards = grid
     flat = bordered.reshape(-1)[BORDER:]
     stride = np.uint64(bordered.shape[1])
     row_limit, column_limit = np.int32(table.shape[0] - 1), np.int32(table.shape[1] - 1)
@@ -191,8 +191,8 @@ def _block_rows(start, stop, order, lower, upper, parts, hits, rays, grid, least
                 headings[i, 4] = lengths[i] / resolution - MARGIN
                 if theta_upper - theta_lower + 2.0 * turns[i] > _WIDEST_TURN:
                     headings[i, :4] = 0.0  # along no axis: such a ray is never found to be blocked
-        xl, yl = lower[row, 0] / resolution, lower[row, 1] / resolution
-        xu, yu = upper[row, 0] / resolution, upper[row, 1] / resolution
+        xl, yl = lower[row, 0] / resolution - origin[1], lower[row, 1] / resolution - origin[0]
+        xu, yu = upper[row, 0] / resolution - origin[1], upper[row, 1] / resolution - origin[0]
         if min(xl, yl) < -NEAR or max(xu, yu) > NEAR or theta_upper - theta_lower > _WIDEST_TURN:
             continue
         box = (xl - MARGIN, yl - MARGIN, xu + MARGIN, yu + MARGIN)
@@ -283,6 +283,6 @@ def count_blocked(
     order = group_rows(boxes.lower[:, 2], boxes.upper[:, 2])
     hits = (beams.ends, beams.directions, beams.errors, map_error_m)
     evidence = (rays.origins, rays.angles, rays.turns, rays.lengths, rays.beams, rays.margins)
-    grid = (occupied.resolution, occupied.bordered, occupied.table, bits.upwards, bits.rightwards)
+    grid = (occupied.resolution, occupied.bordered, occupied.table, occupied.origin, bits.upwards, bits.rightwards)
     run(_block_rows, len(boxes), order, boxes.lower, boxes.upper, parts, hits, evidence, grid, counted, minimum=16)
     return np.minimum(counted, np.iinfo(np.int16).max).astype(np.int16)

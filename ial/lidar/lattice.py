@@ -47,6 +47,10 @@ class Lattice:
             side *= 2.0
         return Boxes.of([(0.0, side), (0.0, side), (-PI_UPPER, PI_UPPER)])
 
+    def layer(self, boxes: Boxes) -> IntArray:
+        """Return in which layer of the finest level the headings of each cell begin, or those of a union of cells; int64 of shape (n,)."""
+        return np.rint((boxes.lower[:, 2] + math.pi) * (self.layers / (2.0 * math.pi))).astype(np.int64)
+
     def cover(self, boxes: Boxes, max_cells: int, volume: float = 0.0) -> Boxes:
         """Return different cells of one level that together cover all boxes: the finest level on which they are at most `max_cells`.
 

@@ -89,7 +89,7 @@ class Localizer:
 
     @property
     def poses(self) -> PoseSet:
-        """The present set of poses, in the grid's frame."""
+        """The present set of poses, in the grid's frame: whole cells, of which an estimate tells what `precision.halvings` leaves."""
         return self._filter.states
 
     def locate(self, scan: LaserScan) -> Estimate:
@@ -124,7 +124,7 @@ class Localizer:
         self.model.start_clock()
         beams = scan_beams(scan, self.config)
         rejection = tracker.update(motion, beams)
-        poses = tracker.states
+        poses = self.model.trim(tracker.states, beams)
         hypotheses = find_hypotheses(poses, self.grid, counted=beams.informative)
         status = judge(
             hypotheses,

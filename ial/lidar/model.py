@@ -2,29 +2,30 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.paving.limits import Deadline, Limit
+from ial.contractors.paving.clusters import cluster
+from ial.contractors.paving.limits import Deadline
 from ial.contractors.paving.paver import pave
 from ial.contractors.paving.waiting import Order
 from ial.datasets.motion import Motion
-from ial.errors import ConfigError, MapError
+from ial.errors import ConfigError
 from ial.lidar.beams import Beams
-from ial.lidar.bit_columns import BitColumns
 from ial.lidar.cell_counts import count_cells
 from ial.lidar.config import LocalizerConfig
 from ial.lidar.free_space import count_blocked
 from ial.lidar.lattice import Lattice
 from ial.lidar.pose_contractor import PoseContractor
-from ial.lidar.pose_set import PoseSet, unite
-from ial.lidar.prediction import move
+from ial.lidar.pose_set import PoseSet, join, unite
+from ial.lidar.prediction import in_rows, move
+from ial.lidar.sheets import Sheet, Sheets
 from ial.lidar.tiles import Tiles
-from ial.maps.cell_index import CellIndex
-from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid, check_usable
+from ial.lidar.trimming import trim
+from ial.maps.occupancy_grid import FREE, UNKNOWN, OccupancyGrid, check_usable
 from ial.maps.symmetry import symmetries
 from ial.membership import Model
 from ial.pose import Pose
@@ -32,12 +33,13 @@ from ial.pose import Pose
 _COARSE = 2.0
 """Boxes are bisected down to this many cells of the lattice along each axis; what is left of them is tried part by part."""
 
-_ROUND_UP = 1.0 + 2.0**-40
 _CHUNK = 1 << 12  # tiles that are tried at a time, 2 KB each
 _BATCH = 1 << 14  # larger ones sweep more of a map's table than the caches hold: a third slower on 400 × 400 m
 _LAID_OUT_CELLS = 1 << 17  # above, a set is laid out coarser, and refined by the scan
 _SEARCHING = 0.5  # the share of a scan's time that searches may take; laying out the set and telling its hypotheses apart takes the rest
 _CELLS_PER_S = 2.5e5  # that are laid out where time is limited, for each second of it
+_MANY = 1 << 12  # boxes of a set
+_TRIMMED = 1 << 10  # the same
 _FIRST_TILES = 16  # that are tried while it is not known how long one takes
 
 
@@ -63,11 +65,9 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         self.grid = grid
         self.config = config
         split, parts = divide(grid.resolution, config.precision.position_m)
-        self.occupied = CellIndex(_split(grid.mask(OCCUPIED), split), grid.resolution / split)
-        self.domain = CellIndex(_split(self._roomy(grid.mask(*allowed)), split), grid.resolution / split, compact=True)
-        self.bits = BitColumns(_split(grid.mask(OCCUPIED), split)) if config.free_space.use else None
-        self.lattice = Lattice(parts * self.occupied.resolution, config.precision.heading_rad, parts)
-        self._universe = PoseSet(self.lattice.root(grid.width_m, grid.height_m))
+        self.lattice = Lattice(parts * (grid.resolution / split), config.precision.heading_rad, parts)
+        self.sheets = Sheets(grid, allowed, split, self.lattice, radius_m=config.robot_radius_m, free_space=config.free_space.use)
+        self._universe = PoseSet(self.sheets.universe)
         most = _LAID_OUT_CELLS if config.max_seconds is None else max(64, int(_CELLS_PER_S * config.max_seconds))
         self._affordable = min(most, _LAID_OUT_CELLS, config.max_boxes)
         self.start_clock()
@@ -76,25 +76,6 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         """Let the time begin that one scan may take; what is searched for from now on ends with it."""
         most = self.config.max_seconds
         self._deadline = Deadline(None if most is None else _SEARCHING * most)
-
-    def _roomy(self, allowed: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-        """Return the allowed cells without those from everywhere in which the robot would touch an obstacle.
-
-        From no point of a cell is a closed occupied cell farther than their middles are apart.
-
-        Raises
-        ------
-        MapError
-            If the robot fits nowhere.
-        """
-        radius = self.config.robot_radius_m
-        if not radius:
-            return allowed
-        distance = ndimage.distance_transform_edt(~self.grid.mask(OCCUPIED)) * (self.grid.resolution * _ROUND_UP)
-        roomy = np.asarray(allowed & (distance >= radius))
-        if not roomy.any():
-            raise MapError(f"a robot with a radius of {radius:g} m fits nowhere in this map; give a smaller robot_radius_m")
-        return roomy
 
     def universe(self) -> PoseSet:
         """Return every pose in the map."""
@@ -120,13 +101,16 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         if motion is None:
             return states
         parts = (states.boxes[rows] for rows in (~states.carried, states.carried))
-        confirmed, carried = (self._laid_out(move(boxes, motion), boxes.volume()) for boxes in parts)
+        confirmed, carried = (self._laid_out(move(in_rows(boxes), motion), boxes.volume()) for boxes in parts)
         return unite(PoseSet(confirmed, outliers=states.outliers), PoseSet(carried))
 
     def _laid_out(self, boxes: Boxes, volume: float = 0.0) -> Boxes:
         """Return the cells of the lattice that cover boxes, as far as they meet the domain; see `Lattice.cover`."""
         cells = self.lattice.cover(self._within_map(boxes), self._affordable, volume)
-        return cells[self.domain.meet(Boxes(cells.lower[:, :2], cells.upper[:, :2]))]
+        met = np.zeros(len(cells), dtype=np.bool_)
+        for key, rows, parts in self.sheets.parts(cells):
+            met[rows] |= self.sheets[key].domain.meet(Boxes(parts.lower[:, :2], parts.upper[:, :2]))
+        return cells[met]
 
     def _within_map(self, boxes: Boxes) -> Boxes:
         """Return the boxes cut to the extent of the map, which holds the domain; those outside are dropped."""
@@ -141,19 +125,24 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         """Return what is left after a motion and a scan. A set of ordinary size is laid out and tried in one go."""
         if motion is None or not reading.informative or states.carried.any():
             return self.contract(self.predict(states, motion), reading)
+        self.sheets.reach(reading, self.config.bounds.map_error_m)
         volume = states.boxes.volume()
-        moved = self._within_map(move(states.boxes, motion))
+        moved = self._within_map(move(in_rows(states.boxes), motion))
+        keys = [key for key, _, _ in self.sheets.parts(moved)]
         finest = float(self.lattice.widths.prod())
-        tiles = self.lattice.few_tiles(moved, self._affordable) if volume < 2.0 * self._affordable * finest else None
+        small = len(keys) == 1 and volume < 2.0 * self._affordable * finest
+        tiles = self.lattice.few_tiles(moved, self._affordable) if small else None
         if tiles is None:
             return self.contract(PoseSet(self._laid_out(moved, volume), outliers=states.outliers), reading)
-        return _allowing(reading, states.outliers, lambda most: self._tried(tiles, moved, most, 0))
+        sheet = self.sheets[keys[0]]
+        return _allowing(reading, states, lambda most: self._coarsened(self._tried(sheet, tiles, moved, most), most))
 
     def contract(self, states: PoseSet, reading: Beams) -> PoseSet:
         """Return the poses that a scan allows. Confirmed and carried ones stay apart while both survive; what is both is confirmed."""
         if not reading.informative:
             return states
-        return _allowing(reading, states.outliers, lambda most: self._contracted(states, most))
+        self.sheets.reach(reading, self.config.bounds.map_error_m)
+        return _allowing(reading, states, lambda most: self._contracted(states, most))
 
     def _contracted(self, states: PoseSet, reading: Beams) -> PoseSet:
         confirmed, carried = (self._paved(states.boxes[rows], reading) for rows in (~states.carried, states.carried))
@@ -164,66 +153,101 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         return unite(confirmed, carried.without(confirmed.boxes))
 
     def _paved(self, boxes: Boxes, reading: Beams) -> PoseSet:
-        if not len(boxes):
-            return PoseSet(boxes, outliers=reading.outliers)
-        contractor = PoseContractor(reading, self.occupied, self.domain, self.config.bounds.map_error_m)
+        pieces = list(self.sheets.parts(boxes))
+        found: list[PoseSet] = []
+        for number, (key, _, piece) in enumerate(pieces):
+            found.append(self._searched(self.sheets[key], piece, reading, self.config.max_boxes - sum(map(len, found))))
+            if found[-1].limited:
+                ahead = (PoseSet(piece) for _, _, piece in pieces[number + 1 :])
+                return self._coarsened(join([*found, *ahead], reading.outliers), reading)
+        return join(found, reading.outliers)
+
+    def _searched(self, sheet: Sheet, boxes: Boxes, reading: Beams, max_boxes: int) -> PoseSet:
+        """Return the cells in boxes that may hold a consistent pose; where a limit is reached, boxes that cover what is left, marked."""
         coarse = self.lattice.widths * _COARSE
-        nodes = 0
-        if (boxes.width() > coarse).any():
-            left = self._deadline.left_s
-            # What the clock leaves half done is to be equally coarse everywhere: the next scan goes on from there.
-            order: Order = "depth" if left is None else "breadth"
-            paving = pave(contractor, boxes, coarse, order=order, max_boxes=self.config.max_boxes, max_seconds=left, batch=_BATCH)
-            boxes, nodes = paving.boxes, paving.nodes
-            if paving.limited:
-                # A search that was stopped leaves large boxes: finer cells than it had boxes would say no more.
-                return self._coarse(boxes, paving.limited, nodes, reading)
-        return self._tried(self.lattice.tiles(boxes), boxes, reading, nodes)
+        if not (boxes.width() > coarse).any():
+            return self._tried(sheet, self.lattice.tiles(boxes), boxes, reading)
+        contractor = PoseContractor(reading, sheet.occupied, sheet.domain, self.config.bounds.map_error_m)
+        left = self._deadline.left_s
+        # What the clock leaves half done is to be equally coarse everywhere: the next scan goes on from there.
+        order: Order = "depth" if left is None else "breadth"
+        paving = pave(contractor, boxes, coarse, order=order, max_boxes=max(max_boxes, 1), max_seconds=left, batch=_BATCH)
+        if paving.limited:
+            # A search that was stopped leaves large boxes: finer cells than it had boxes would say no more.
+            return PoseSet(paving.boxes, limited=paving.limited, nodes=paving.nodes)
+        found = self._tried(sheet, self.lattice.tiles(paving.boxes), paving.boxes, reading)
+        return replace(found, nodes=paving.nodes + found.nodes)
 
-    def _coarse(self, boxes: Boxes, limited: Limit, nodes: int, reading: Beams) -> PoseSet:
-        """Return cells that cover boxes, of an answer that a limit made coarse."""
-        most = min(2 * len(boxes), self._affordable if limited == "time" else self.config.max_boxes)
-        return PoseSet(self.lattice.cover(boxes, most, boxes.volume()), limited=limited, nodes=nodes, outliers=reading.outliers)
-
-    def _tried(self, tiles: Tiles, boxes: Boxes, reading: Beams, nodes: int) -> PoseSet:
-        """Return the cells that may hold a consistent pose; where they are too many, or the time is up, coarse ones that cover `boxes`."""
-        if not len(tiles.keys):
-            return PoseSet(Boxes.none(3), nodes=nodes, outliers=reading.outliers)
+    def _tried(self, sheet: Sheet, tiles: Tiles, boxes: Boxes, reading: Beams) -> PoseSet:
+        """Return the cells that may hold a consistent pose; where they are too many, or the time is up, the boxes, marked."""
         deadline = Deadline(self._deadline.left_s, _FIRST_TILES)
-        found, counts, total = [], [], 0
+        found, counts, total = [Boxes.none(3)], [np.empty(0, dtype=np.int16)], 0
         start = 0
         while start < len(tiles.keys):
             portion = deadline.portion(min(_CHUNK, len(tiles.keys) - start))
+            if not portion:
+                return PoseSet(boxes, limited="time")
             part = Tiles(tiles.keys[start : start + portion], tiles.words[start : start + portion])
-            words, least = count_cells(part, self.lattice, reading, self.occupied, self.domain, self.config.bounds.map_error_m)
+            words, least = count_cells(part, self.lattice, reading, sheet.occupied, sheet.domain, self.config.bounds.map_error_m)
             left = Tiles(part.keys, words)
             total += len(left)
-            if not portion or total > self.config.max_boxes:
-                return self._coarse(boxes, "boxes" if portion else "time", nodes, reading)
-            cells, bad = self._looked_along(self.lattice.boxes(left), left.values(least), reading)
+            if total > self.config.max_boxes:
+                return PoseSet(boxes, limited="boxes")
+            cells, bad = self._looked_along(sheet, self.lattice.boxes(left), left.values(least), reading)
             found.append(cells)
             counts.append(bad)
             deadline.worked(portion)
             start += portion
-        return PoseSet(Boxes.concatenate(found), nodes=nodes + len(tiles), bad=np.concatenate(counts), outliers=reading.outliers)
+        return PoseSet(Boxes.concatenate(found), nodes=len(tiles), bad=np.concatenate(counts), outliers=reading.outliers)
 
-    def _looked_along(self, cells: Boxes, bad: npt.NDArray[np.int16], reading: Beams) -> tuple[Boxes, npt.NDArray[np.int16]]:
+    def _coarsened(self, found: PoseSet, reading: Beams) -> PoseSet:
+        """Return what a search has found; if a limit has stopped it, as not too many coarse cells that cover it."""
+        if not found.limited:
+            return found
+        boxes = found.boxes
+        most = min(2 * len(boxes), self._affordable if found.limited == "time" else self.config.max_boxes)
+        cells = self.lattice.cover(boxes, most, boxes.volume())
+        return PoseSet(cells, limited=found.limited, nodes=found.nodes, outliers=reading.outliers)
+
+    def _looked_along(self, sheet: Sheet, cells: Boxes, bad: npt.NDArray[np.int16], reading: Beams) -> tuple[Boxes, npt.NDArray[np.int16]]:
         """Return the cells from which not too many beams are bad or blocked, and how many are at least."""
-        if self.bits is None:
+        if sheet.bits is None:
             return cells, bad
-        bad = count_blocked(cells, bad, reading, self.lattice.parts, self.occupied, self.bits, self.config.bounds.map_error_m)
+        bad = count_blocked(cells, bad, reading, self.lattice.parts, sheet.occupied, sheet.bits, self.config.bounds.map_error_m)
         rows = bad <= reading.outliers
         return cells[rows], bad[rows]
+
+    def trim(self, poses: PoseSet, reading: Beams) -> PoseSet:
+        """Return what a scan has left, its hypotheses cut to their outermost pieces that may hold a consistent pose.
+
+        Only a set of few cells is worth it. Cells that are carried on are not cut: a set that reaches a little farther forgives more.
+        """
+        halvings = self.config.precision.halvings
+        if not halvings or not reading.informative or poses.limited or not 0 < len(poses) <= _TRIMMED or poses.carried.any():
+            return poses
+        clusters = cluster(poses.boxes, circular=(2,))
+        lowest = self.lattice.layer(clusters.hulls)[clusters.labels]
+        layers = (self.lattice.layer(poses.boxes) - lowest) % self.lattice.layers
+        allowed = reading.allowing(poses.outliers)
+        lower, upper = poses.boxes.lower.copy(), poses.boxes.upper.copy()
+        kept = np.zeros(len(poses), dtype=np.bool_)
+        for key, rows, part in self.sheets.parts(poses.boxes):
+            occupied = self.sheets[key].occupied
+            cut, kept[rows] = trim(part, clusters.labels[rows], layers[rows], allowed, occupied, self.config.bounds.map_error_m, halvings)
+            lower[rows], upper[rows] = cut.lower, cut.upper
+        if not kept.any():
+            return poses
+        return replace(poses, boxes=Boxes(lower, upper)[kept], carried=poses.carried[kept], bad=poses.bad[kept])
 
     def symmetries(self) -> tuple[Pose, ...]:
         """Return the rotations of the map frame after which no scan can tell the difference."""
         origin = self.grid.origin
-        turns = symmetries(self.grid.mask(OCCUPIED), self.grid.mask(*self._allowed), resolution=self.grid.resolution)
-        return tuple(origin @ turn @ origin.inverse() for turn in turns)
+        return tuple(origin @ turn @ origin.inverse() for turn in symmetries(self.grid, self._allowed))
 
     def in_domain(self, pose: Pose) -> bool:
         """Return whether a position in the grid's frame lies in a cell of the domain."""
-        return bool(self.domain.meet(Boxes.of([(pose.x, pose.x), (pose.y, pose.y)]))[0])
+        at = Boxes.of([(pose.x, pose.x), (pose.y, pose.y)])
+        return any(bool(self.sheets[key].domain.meet(part)[0]) for key, _, part in self.sheets.parts(at))
 
     def empty(self, states: PoseSet) -> bool:
         """Return whether no pose is left."""
@@ -244,7 +268,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         return unite(found, predicted)
 
 
-def _allowing(reading: Beams, before: int, search: Callable[[Beams], PoseSet]) -> PoseSet:
+def _allowing(reading: Beams, states: PoseSet, search: Callable[[Beams], PoseSet]) -> PoseSet:
     """Return what a search leaves, with as many bad beams as the reading allows.
 
     Where the reading leaves the number open it is the smallest one that leaves a pose, plus the margin. The search is repeated with more
@@ -252,13 +276,15 @@ def _allowing(reading: Beams, before: int, search: Callable[[Beams], PoseSet]) -
 
     Parameters
     ----------
-    before
-        How many were allowed at the scan before; 0 if there was none.
+    states
+        What was known before, with how many beams might be bad at the scan before; 0 if there was none.
     """
     if reading.margin is None:
         return search(reading)
+    before = states.outliers
     limit = reading.outliers if reading.jump is None or not before else min(reading.outliers, before + reading.jump)
-    most = min(max(before, 2 * reading.margin), limit)
+    guess = before if len(states) < _MANY else 0  # a large set is what a scan with many bad beams has left: few more come as bad
+    most = min(max(guess, 2 * reading.margin), limit)
     while True:
         found = search(reading.allowing(most))
         if len(found):
@@ -281,7 +307,3 @@ def divide(resolution: float, position_m: float) -> tuple[int, int]:
     if 2.0 * resolution <= position_m * (1.0 + 1e-6):
         return 1, math.floor(position_m / resolution * (1.0 + 1e-6))
     return math.ceil(2.0 * resolution / position_m * (1.0 - 1e-6)), 2
-
-
-def _split(mask: npt.NDArray[np.bool_], split: int) -> npt.NDArray[np.bool_]:
-    return mask if split == 1 else mask.repeat(split, axis=0).repeat(split, axis=1)

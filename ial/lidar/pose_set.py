@@ -1,5 +1,6 @@
 """`PoseSet`: what the localizer knows, as boxes of poses in the grid's frame."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -81,4 +82,15 @@ def unite(confirmed: PoseSet, carried: PoseSet) -> PoseSet:
         confirmed.nodes + carried.nodes,
         np.concatenate([confirmed.bad, carried.bad]),
         max(confirmed.outliers, carried.outliers),
+    )
+
+
+def join(parts: Sequence[PoseSet], outliers: int) -> PoseSet:
+    """Return the union of what one search has found in several places, of confirmed poses only."""
+    return PoseSet(
+        Boxes.concatenate([Boxes.none(3), *(each.boxes for each in parts)]),
+        limited=next((each.limited for each in parts if each.limited), ""),
+        nodes=sum(each.nodes for each in parts),
+        bad=np.concatenate([np.empty(0, dtype=np.int16), *(each.bad for each in parts)]),
+        outliers=outliers,
     )

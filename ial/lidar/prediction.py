@@ -36,3 +36,19 @@ def move(boxes: Boxes, motion: Motion) -> Boxes:
     lower, upper = np.empty_like(boxes.lower), np.empty_like(boxes.upper)
     run(_move, len(boxes), boxes.lower, boxes.upper, tuple(motion.lower.tolist()), tuple(motion.upper.tolist()), lower, upper)
     return Boxes(lower, upper)
+
+
+def in_rows(boxes: Boxes) -> Boxes:
+    """Return the same set of poses as fewer boxes: neighbours along x that follow each other become one.
+
+    What moves a box depends on its headings alone, so `move` makes of a row what it makes of its boxes together.
+    """
+    if not len(boxes):
+        return boxes
+    lower, upper = boxes.lower, boxes.upper
+    alike = (lower[1:, 1:] == lower[:-1, 1:]) & (upper[1:, 1:] == upper[:-1, 1:])
+    starts = np.append(True, ~(alike.all(axis=1) & (lower[1:, 0] == upper[:-1, 0])))
+    first = np.flatnonzero(starts)
+    row_upper = upper[first]
+    row_upper[:, 0] = upper[np.append(first[1:], len(boxes)) - 1, 0]
+    return Boxes(lower[first], row_upper)

@@ -15,7 +15,7 @@ from ial.maps.cell_index import BORDER, CellIndex
 
 
 @kernel
-def _fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit):  # type: ignore[no-untyped-def]
+def fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit):  # type: ignore[no-untyped-def]
     """Return whether at most q beams certainly miss every occupied cell from all of a box, whose bounds are given in cells.
 
     A beam fails if the rectangle of its possible end points meets no occupied cell: four look-ups in the summed-area table.
@@ -37,7 +37,7 @@ def _fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit):  # 
 
 
 @kernel
-def _test(start, stop, order, lower, upper, ends, directions, errors, q, map_error, resolution, bordered, keep):  # type: ignore[no-untyped-def]
+def _test(start, stop, order, lower, upper, ends, directions, errors, q, map_error, resolution, bordered, origin, keep):  # type: ignore[no-untyped-def]
     flat = bordered.reshape(-1)[BORDER:]
     stride = np.uint64(bordered.shape[1])
     row_limit = np.int32(bordered.shape[0] - 1)
@@ -51,40 +51,36 @@ def _test(start, stop, order, lower, upper, ends, directions, errors, q, map_err
             theta_lower = lower[row, 2]
             theta_upper = upper[row, 2]
             relative_bounds(theta_lower, theta_upper, ends, directions, errors, map_error, resolution, bounds)
-        xl = lower[row, 0] / resolution
-        yl = lower[row, 1] / resolution
-        xu = upper[row, 0] / resolution
-        yu = upper[row, 1] / resolution
+        xl, xu = lower[row, 0] / resolution - origin[1], upper[row, 0] / resolution - origin[1]
+        yl, yu = lower[row, 1] / resolution - origin[0], upper[row, 1] / resolution - origin[0]
         near = min(xl, yl) >= -NEAR and max(xu, yu) <= NEAR  # elsewhere the indices would not be right, so the box is kept
         xl, yl = xl + OFFSET, yl + OFFSET
         xu, yu = xu + (OFFSET + 1.0), yu + (OFFSET + 1.0)
-        keep[row] = not near or _fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit)
+        keep[row] = not near or fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit)
 
 
 @kernel
-def _narrow(start, stop, order, lower, upper, ends, directions, errors, q, map_error, resolution, table):  # type: ignore[no-untyped-def]
+def _narrow(start, stop, order, lower, upper, ends, directions, errors, q, map_error, resolution, table, origin):  # type: ignore[no-untyped-def]
     bounds = np.empty((len(ends), 4))
     low = np.empty((2, len(ends)))
     high = np.empty((2, len(ends)))
     for at in range(start, stop):
         row = order[at]
         relative_bounds(lower[row, 2], upper[row, 2], ends, directions, errors, map_error, resolution, bounds)
-        xl = lower[row, 0] / resolution
-        yl = lower[row, 1] / resolution
-        xu = upper[row, 0] / resolution
-        yu = upper[row, 1] / resolution
+        xl, xu = lower[row, 0] / resolution - origin[1], upper[row, 0] / resolution - origin[1]
+        yl, yu = lower[row, 1] / resolution - origin[0], upper[row, 1] / resolution - origin[0]
         if min(xl, yl) < -NEAR or max(xu, yu) > NEAR:
             continue
         x0, y0, x1, y1 = narrow(xl, yl, xu, yu, bounds, q, table, low, high)
         # The margin in `bounds` covers the rounding of a bound that has moved; one that has not keeps its bits.
         if x0 > xl:
-            lower[row, 0] = max(lower[row, 0], x0 * resolution)
+            lower[row, 0] = max(lower[row, 0], (x0 + origin[1]) * resolution)
         if y0 > yl:
-            lower[row, 1] = max(lower[row, 1], y0 * resolution)
+            lower[row, 1] = max(lower[row, 1], (y0 + origin[0]) * resolution)
         if x1 < xu:
-            upper[row, 0] = min(upper[row, 0], x1 * resolution)
+            upper[row, 0] = min(upper[row, 0], (x1 + origin[1]) * resolution)
         if y1 < yu:
-            upper[row, 1] = min(upper[row, 1], y1 * resolution)
+            upper[row, 1] = min(upper[row, 1], (y1 + origin[0]) * resolution)
 
 
 class ScanContractor:
@@ -117,7 +113,8 @@ class ScanContractor:
         order = group_rows(boxes.lower[:, 2], boxes.upper[:, 2])
         beams = self.beams
         evidence = (beams.ends, beams.directions, beams.errors, beams.outliers, self.map_error_m)
-        run(_test, len(boxes), order, boxes.lower, boxes.upper, *evidence, self.occupied.resolution, self.occupied.bordered, keep)
+        cells = (self.occupied.resolution, self.occupied.bordered, self.occupied.origin)
+        run(_test, len(boxes), order, boxes.lower, boxes.upper, *evidence, *cells, keep)
         return keep
 
     def contract(self, boxes: Boxes) -> Boxes:
@@ -128,5 +125,6 @@ class ScanContractor:
         if beams.informative:
             evidence = (beams.ends, beams.directions, beams.errors, beams.outliers, self.map_error_m)
             order = np.flatnonzero(keep)
-            run(_narrow, len(order), order, lower, upper, *evidence, self.occupied.resolution, self.occupied.table, minimum=8)
+            cells = (self.occupied.resolution, self.occupied.table, self.occupied.origin)
+            run(_narrow, len(order), order, lower, upper, *evidence, *cells, minimum=8)
         return Boxes(lower, upper).where(keep & (lower <= upper).all(axis=1))

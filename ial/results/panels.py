@@ -20,6 +20,7 @@ from ial.pose import Pose
 from ial.results.enclosures import Enclosure
 from ial.results.map_layer import MapLayer, View
 from ial.results.palette import EDGE, FOUND, OFF_WALL, ON_WALL, PATH, PREDICTION, STATUS_COLOURS, TRUTH
+from ial.results.walk import Walk
 
 _HULLS = 50_000  # more are thinned out evenly
 _RINGS = 200  # more hypotheses of the first scan are not ringed
@@ -31,22 +32,22 @@ FloatArray = npt.NDArray[np.float64]
 Key = Line2D | Patch | PathCollection
 
 
-def draw_walk(axes: Axes, layer: MapLayer, walk: Sequence[Enclosure], truth: Sequence[Pose]) -> None:
+def draw_walk(axes: Axes, layer: MapLayer, walk: Walk, truth: Sequence[Pose]) -> None:
     """Draw the hull of every hypothesis of every scan, the path of the localized robot, and the reference if there is one."""
     layer.draw(axes)
-    carried = [each for scan in walk for each in scan.hypotheses if each.prediction]
-    found = [(scan.status, each) for scan in walk for each in scan.hypotheses if not each.prediction]
+    carried = [each for scan in walk.scans for each in scan.hypotheses if each.prediction]
+    found = [(scan.status, each) for scan in walk.scans for each in scan.hypotheses if not each.prediction]
     _draw_hulls(axes, carried, [PREDICTION] * len(carried), alpha=0.0, zorder=1)
     for certain in (False, True):  # the certain ones above all others
         rows = [(status, each) for status, each in found if (status == "localized") is certain]
         colours = [STATUS_COLOURS[status] for status, _ in rows]
         _draw_hulls(axes, [each for _, each in rows], colours, alpha=0.30 if certain else 0.16, zorder=2 + certain)
-    pieces = _pieces(walk)
+    pieces = _pieces(walk.scans)
     axes.add_collection(LineCollection(pieces, colors="white", linewidths=3.2, zorder=5), autolim=False)
     axes.add_collection(LineCollection(pieces, colors=PATH, linewidths=1.6, zorder=6), autolim=False)
     if truth:
         axes.plot([pose.x for pose in truth], [pose.y for pose in truth], color=TRUTH, linewidth=1.1, linestyle=_DASHES, zorder=7)
-    last = next((scan.pose for scan in reversed(walk) if scan.pose is not None), None)
+    last = next((scan.pose for scan in reversed(walk.scans) if scan.pose is not None), None)
     if last is not None:
         _draw_robot(axes, last)
     statuses = {status for status, _ in found}
@@ -79,11 +80,11 @@ def _pieces(walk: Sequence[Enclosure]) -> list[FloatArray]:
     return [np.array(piece if len(piece) > 1 else piece * 2) for piece in pieces if piece]
 
 
-def draw_first(axes: Axes, layer: MapLayer, boxes: Boxes, walk: Sequence[Enclosure]) -> None:
+def draw_first(axes: Axes, layer: MapLayer, boxes: Boxes, walk: Walk) -> None:
     """Draw the answer to the first scan, which is a search of the whole map unless the start was given."""
     layer.draw(axes)
     layer.draw_boxes(axes, boxes, FOUND)
-    hypotheses = walk[0].hypotheses if walk else ()
+    hypotheses = walk.scans[0].hypotheses if walk else ()
     if len(hypotheses) <= _RINGS:
         for pose in (each.centre for each in hypotheses):
             axes.plot([pose.x], [pose.y], "o", markersize=13, fillstyle="none", color=FOUND, markeredgewidth=0.9, zorder=4)
@@ -137,10 +138,11 @@ def _around(points: FloatArray, pose: Pose) -> View:
     return float(low[0]) - margin, float(high[0]) + margin, float(low[1]) - margin, float(high[1]) + margin
 
 
-def draw_status(axes: Axes, walk: Sequence[Enclosure]) -> None:
+def draw_status(axes: Axes, walk: Walk) -> None:
     """Draw how many hypotheses each scan left, in the colour of its status."""
-    group = max(1, math.ceil(len(walk) / _BAR_PIXELS))
-    bars = [max(walk[at : at + group], key=lambda scan: len(scan.hypotheses)) for at in range(0, len(walk), group)]
+    scans = walk.scans
+    group = max(1, math.ceil(len(scans) / _BAR_PIXELS))
+    bars = [max(scans[at : at + group], key=lambda scan: len(scan.hypotheses)) for at in range(0, len(scans), group)]
     index = np.array([bar.index for bar in bars], dtype=np.float64)
     count = np.array([max(1, len(bar.hypotheses)) for bar in bars], dtype=np.float64)
     width = float(np.diff(index).min()) if len(index) > 1 else 1.0
@@ -148,9 +150,8 @@ def draw_status(axes: Axes, walk: Sequence[Enclosure]) -> None:
     axes.set(yscale="log", ylim=(0.5, max(10.0, 1.6 * count.max(initial=1.0))), xlabel="scan")
     axes.margins(x=0.004)
     axes.yaxis.set_major_formatter("{x:g}")
-    names = [name for name in STATUS_COLOURS if any(scan.status == name for scan in walk)]
-    tally = {name: sum(scan.status == name for scan in walk) for name in names}
-    keys = [Patch(color=STATUS_COLOURS[name], label=f"{name} ({tally[name]})") for name in names]
+    names = sorted(walk.statuses, key=list(STATUS_COLOURS).index)
+    keys = [Patch(color=STATUS_COLOURS[name], label=f"{name} ({walk.statuses[name]})") for name in names]
     axes.spines[["top", "right"]].set_visible(False)
     axes.tick_params(labelsize=8, colors="#444444")
     axes.set_title("hypotheses left by each scan", loc="left", fontsize=10)

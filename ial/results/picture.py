@@ -17,6 +17,8 @@ from ial.pose import Pose
 from ial.results.enclosures import Enclosure
 from ial.results.map_layer import MapLayer
 from ial.results.panels import draw_first, draw_scan, draw_status, draw_walk
+from ial.results.thinning import thinned
+from ial.results.walk import Walk
 from ial.results.wording import pose_text
 
 _DPI = 120
@@ -76,7 +78,7 @@ def _upright() -> _Page:
 class Picture(AbstractContextManager["Picture"]):
     """``picture.png``: the map with the path and the enclosure of every scan, the first global step, the last scan on the walls, and time.
 
-    Of each scan only the hulls are kept, and of the first one all boxes.
+    Of each scan only the hulls are kept, of a long run not of each, and of the first one all boxes.
 
     Parameters
     ----------
@@ -105,14 +107,14 @@ class Picture(AbstractContextManager["Picture"]):
         self._name = name
         self._walls_m = walls_m
         self._reference = reference
-        self._walk: list[Enclosure] = []
+        self._walk = Walk()
         self._truth: list[Pose] = []
         self._first: Boxes | None = None
         self._scan: tuple[Step, Pose] | None = None
 
     def add(self, step: Step, estimate: Estimate) -> None:
         """Remember what will be drawn of one scan."""
-        self._walk.append(Enclosure.of(step, estimate))
+        self._walk.add(Enclosure.of(step, estimate))
         if self._first is None:
             self._first = estimate.poses.boxes
         if estimate.pose is not None:
@@ -120,6 +122,7 @@ class Picture(AbstractContextManager["Picture"]):
         at = None if self._reference is None else self._reference(step)
         if at is not None:
             self._truth.append(at)
+            self._truth = thinned(self._truth)
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
         if kind is None:
@@ -148,7 +151,7 @@ class Picture(AbstractContextManager["Picture"]):
 
     def _outcome(self) -> str:
         """Return in words where the run ended."""
-        last = next((each for each in reversed(self._walk) if each.pose is not None), None)
+        last = next((each for each in reversed(self._walk.scans) if each.pose is not None), None)
         if last is None or last.pose is None:
             return f"never localized in {len(self._walk)} scans"
         return f"scan {last.index}: {pose_text(last.pose, last.hypotheses[0])}"

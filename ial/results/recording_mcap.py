@@ -3,14 +3,15 @@
 from contextlib import AbstractContextManager
 from pathlib import Path
 from types import TracebackType
-from typing import Any
 
 from ial.datasets import ros_messages as ros
 from ial.datasets.bag_writer import BagWriter
 from ial.datasets.recording import Step
 from ial.lidar.estimate import Estimate
 from ial.maps.occupancy_grid import OccupancyGrid
+from ial.pose import Pose
 from ial.results.markers import enclosure_markers
+from ial.results.thinning import thinned
 
 MAP, ODOM, BASE = "map", "odom", "base_link"
 _GROWTH = 1.03  # a path is written again when it has grown by this factor, so that the file grows with the run, not with its square
@@ -30,7 +31,7 @@ class RecordingFile(AbstractContextManager["RecordingFile"]):
                                                          localizer corrects the odometry, REP-105
     ``/enclosures``  visualization_msgs/MarkerArray      every pose that the data allow, as boxes and hulls
     ``/pose``        geometry_msgs/PoseStamped           the pose of base_link in the map, while localized
-    ``/path``        nav_msgs/Path                       the poses so far
+    ``/path``        nav_msgs/Path                       the poses so far, of a long run a selection
     ===============  ==================================  =============================================================================
 
     Parameters
@@ -45,8 +46,8 @@ class RecordingFile(AbstractContextManager["RecordingFile"]):
         self._bag = BagWriter(path)
         self._grid = grid
         self._frames: set[str] = set()
-        self._path: list[Any] = []
-        self._written = 0
+        self._path: list[tuple[int, Pose]] = []
+        self._poses = self._written = 0
         self._last_ns = 0
 
     def add(self, step: Step, estimate: Estimate) -> None:
@@ -65,10 +66,11 @@ class RecordingFile(AbstractContextManager["RecordingFile"]):
         markers = enclosure_markers(bag, stamp, MAP, self._grid, estimate)
         bag.write("/enclosures", "visualization_msgs/msg/MarkerArray", stamp, markers)
         if estimate.pose is not None:
-            pose = ros.stamped_pose(bag, stamp, MAP, estimate.pose)
-            self._path.append(pose)
-            bag.write("/pose", "geometry_msgs/msg/PoseStamped", stamp, pose)
-            if len(self._path) >= _GROWTH * self._written:
+            bag.write("/pose", "geometry_msgs/msg/PoseStamped", stamp, ros.stamped_pose(bag, stamp, MAP, estimate.pose))
+            self._path.append((stamp, estimate.pose))
+            self._path = thinned(self._path)
+            self._poses += 1
+            if self._poses >= _GROWTH * self._written:
                 self._write_path()
 
     def _write_mounting(self, step: Step) -> None:
@@ -78,10 +80,11 @@ class RecordingFile(AbstractContextManager["RecordingFile"]):
         self._frames.add(frame)
 
     def _write_path(self) -> None:
-        self._bag.write("/path", "nav_msgs/msg/Path", self._last_ns, ros.path_message(self._bag, self._last_ns, MAP, self._path))
-        self._written = len(self._path)
+        poses = [ros.stamped_pose(self._bag, stamp, MAP, pose) for stamp, pose in self._path]
+        self._bag.write("/path", "nav_msgs/msg/Path", self._last_ns, ros.path_message(self._bag, self._last_ns, MAP, poses))
+        self._written = self._poses
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
-        if kind is None and self._written < len(self._path):
+        if kind is None and self._written < self._poses:
             self._write_path()
         self._bag.__exit__(kind, error, trace)

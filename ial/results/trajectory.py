@@ -5,9 +5,8 @@ from pathlib import Path
 from types import TracebackType
 
 from ial.datasets.recording import Step
-from ial.datasets.trajectory import Trajectory, write_tum
+from ial.datasets.trajectory import tum_line
 from ial.lidar.estimate import Estimate
-from ial.pose import Pose
 
 
 class TrajectoryFile(AbstractContextManager["TrajectoryFile"]):
@@ -20,14 +19,12 @@ class TrajectoryFile(AbstractContextManager["TrajectoryFile"]):
     """
 
     def __init__(self, path: Path) -> None:
-        self._path = path
-        self._poses: list[tuple[int, Pose]] = []
+        self._file = path.open("w", encoding="utf-8")
 
     def add(self, step: Step, estimate: Estimate) -> None:
         """Take one scan."""
         if estimate.pose is not None:
-            self._poses.append((step.stamp_ns, estimate.pose))
+            self._file.write(tum_line(step.stamp_ns, estimate.pose))
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
-        if kind is None:
-            write_tum(Trajectory.of(self._poses), self._path)
+        self._file.close()

@@ -45,7 +45,7 @@ def random_scene(seed: int, scans: int = 1, excess: float = 1.0) -> Scene:
     config = LocalizerConfig(
         bounds=bounds,
         outliers=outliers,
-        precision=Precision(float(random.uniform(0.1, 0.3)), float(random.uniform(0.05, 0.15))),
+        precision=Precision(float(random.uniform(0.1, 0.3)), float(random.uniform(0.05, 0.15)), int(random.integers(0, 4))),
         max_beams=int(random.choice([180, lidar.beams - lidar.beams // 4])),
         domain="free_or_unknown" if random.integers(4) == 0 else "free",
     )

@@ -106,3 +106,10 @@ def test_cells_outside_the_domain_are_dropped_on_any_number_of_threads(threads: 
     assert cells.upper[:, 0].max() == pytest.approx(6.6)
     assert (cells.lower[:, 1].min(), cells.upper[:, 1].max()) == pytest.approx((0.9, 2.1))
     assert len(cells) == 17 * 12 * lattice.layers
+
+
+def test_no_tiles_are_no_trouble() -> None:
+    case = Case(0)
+    case.tiles = type(case.tiles)(case.tiles.keys[:0], case.tiles.words[:0])
+    cells, least = case.count(1)
+    assert len(cells) == len(least) == 0

@@ -99,7 +99,10 @@ def test_the_truth_is_always_inside_and_the_robot_is_found() -> None:
     assert [each.stamp_ns for each in estimates] == [step.stamp_ns for step in recorded()]
     assert {each.outliers_allowed for each in estimates} == {3}
     assert not any(each.limited or each.uninformative for each in estimates)
-    assert localizer.poses is estimates[-1].poses
+    told, known = estimates[-1].poses.boxes, localizer.poses.boxes
+    inside = (known.lower <= told.lower[:, None]) & (told.upper[:, None] <= known.upper)
+    assert inside.all(axis=2).any(axis=1).all()
+    assert told.volume() < known.volume()  # the cells are carried on whole
 
 
 def test_a_static_answer_neither_uses_nor_changes_what_was_learned() -> None:
@@ -305,3 +308,12 @@ def test_a_forked_process_localizes_alike_and_another_rounding_mode_is_refused()
     script = SCRIPT.format(libm=ctypes.util.find_library("m") or "libm.so.6", upward=UPWARD)
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False, timeout=180, env=dict(os.environ))
     assert done.stdout.strip() == "done", done.stderr
+
+
+@pytest.mark.parametrize("seconds", [1e-6, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2])
+def test_however_little_time_there_is_the_truth_stays(seconds: float) -> None:
+    for outliers in (3, "auto"):
+        localizer = Localizer(world(), config=replace(CONFIG, outliers=outliers, max_seconds=seconds))  # type: ignore[arg-type]
+        for estimate, pose in zip(followed(localizer, recorded()), walk(), strict=True):
+            assert holds(estimate, pose)
+            assert estimate.limited in ("", "time")

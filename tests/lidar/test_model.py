@@ -38,7 +38,7 @@ def scan_at(pose: Pose, outliers: int = 0) -> Beams:
 
 
 def free_area(model: LidarModel, boxes: Boxes) -> bool:
-    return bool(model.domain.meet(Boxes(boxes.lower[:, :2], boxes.upper[:, :2])).all())
+    return bool(model.sheets[0, 0].domain.meet(Boxes(boxes.lower[:, :2], boxes.upper[:, :2])).all())
 
 
 TRUTH = Pose(1.53, 0.87, 0.7)

@@ -11,7 +11,7 @@ from ial.datasets.walk import random_walk
 from ial.lidar.config import Bounds, LocalizerConfig, Precision
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
-from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
 from ial.maps.symmetry import symmetries
 from ial.pose import Pose
 
@@ -35,7 +35,7 @@ def hall(turns: int, feature: bool = False) -> OccupancyGrid:
 
 
 def symmetries_of(grid: OccupancyGrid) -> tuple[Pose, ...]:
-    return symmetries(grid.mask(OCCUPIED), grid.mask(FREE), resolution=grid.resolution)
+    return symmetries(grid, (FREE,))
 
 
 @pytest.mark.parametrize("turns", [1, 2, 4])
@@ -52,7 +52,30 @@ def test_quarter_turns_are_found_and_map_walls_onto_walls(turns: int) -> None:
 
 def test_a_feature_anywhere_or_an_empty_map_has_no_symmetry() -> None:
     assert symmetries_of(hall(4, feature=True)) == ()
-    assert symmetries(np.zeros((5, 7), dtype=np.bool_), resolution=0.1) == ()
+    assert symmetries_of(OccupancyGrid(np.full((5, 7), UNKNOWN, dtype=np.uint8), 0.1)) == ()
+
+
+def test_the_rotations_are_those_of_the_turned_arrays() -> None:
+    random = np.random.default_rng(1)
+    numbers = set()
+    for _ in range(300):
+        side, other = random.integers(1, 5, 2)
+        shape = (side, side if random.random() < 0.7 else other)
+        part = random.choice([FREE, OCCUPIED, UNKNOWN], shape, p=[0.4, 0.4, 0.2]).astype(np.uint8)
+        if random.random() < 0.5:
+            part = np.concatenate([part, np.rot90(part, 2)], axis=int(random.integers(2)))
+        cells = np.full((part.shape[0] + 3, part.shape[1] + 2), UNKNOWN, dtype=np.uint8)
+        cells[1:-2, 1:-1] = part
+        grid = OccupancyGrid(cells, 1.0)
+        rows, columns = (np.flatnonzero((cells != UNKNOWN).any(axis=axis)) for axis in (1, 0))
+        expected: list[float] = []
+        if len(rows):
+            inner = cells[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+            expected = [0.5 * math.pi * turns for turns in (1, 2, 3) if np.array_equal(np.rot90(inner, turns), inner)]
+        found = symmetries_of(grid)
+        assert [each.theta % (2.0 * math.pi) for each in found] == pytest.approx(expected)
+        numbers.add(len(found))
+    assert numbers == {0, 1, 3}
 
 
 @pytest.mark.parametrize("turns", [2, 4])

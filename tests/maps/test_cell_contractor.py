@@ -96,3 +96,8 @@ def test_boxes_of_another_dimension_are_refused() -> None:
     for each in (contractor, ~contractor):
         with pytest.raises(ValueError, match="3 dimensions"):
             each.contract(Boxes.none(3))
+
+
+def test_a_part_of_a_grid_is_refused() -> None:
+    with pytest.raises(ValueError, match="part of a grid"):
+        CellContractor(CellIndex(MASK, 0.1, origin=(0, 3)))

@@ -61,7 +61,7 @@ def scenes(draw: st.DrawFn) -> tuple[np.ndarray, float, Box]:
 def test_meets_is_never_wrongly_false_and_wrongly_true_only_within_the_slack(scene: tuple[np.ndarray, float, Box]) -> None:
     mask, resolution, box = scene
     index = CellIndex(mask, resolution)
-    found = meets(index.table, index.inverse_resolution, *box)
+    found = meets(index.table, index.origin, index.inverse_resolution, *box)
     if exact_hull(mask, resolution, box) is not None:
         assert found
     elif found:
@@ -242,3 +242,19 @@ def test_bad_input_is_refused() -> None:
         index.meet(Boxes.none(3))
     with pytest.raises(ValueError, match="3 dimensions"):
         CellContractor(index).contract(Boxes.none(3))
+
+
+def test_a_part_with_its_origin_answers_as_the_whole_grid_does() -> None:
+    random = np.random.default_rng(4)
+    for _ in range(200):
+        mask = random.random((30, 40)) < 0.05
+        row, column = random.integers(0, 20, 2)
+        part = mask[row : row + 10, column : column + 15]
+        alone = np.zeros_like(mask)
+        alone[row : row + 10, column : column + 15] = part
+        resolution = float(random.choice([0.05, 1.0 / 3.0, 0.1]))
+        lower = random.uniform(-5.0, 45.0, (50, 2)) * resolution
+        lower[::2] = np.round(lower[::2] / resolution) * resolution
+        boxes = Boxes(lower, lower + random.uniform(0.0, 8.0, (50, 2)) * random.integers(0, 2, (50, 2)) * resolution)
+        found = CellIndex(part, resolution, origin=(int(row), int(column))).meet(boxes)
+        assert (found == CellIndex(alone, resolution).meet(boxes)).all()

@@ -1,0 +1,182 @@
+"""A map in sheets gives the answers of the map in one piece."""
+
+import math
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from ial.contractors.boxes import Boxes
+from ial.datasets.motion import ErrorBound, MotionBounds
+from ial.datasets.recording import Step, steps
+from ial.datasets.simulator import Lidar, SensorErrors, simulate
+from ial.datasets.walk import random_walk
+from ial.errors import MapError
+from ial.lidar import sheets
+from ial.lidar.beams import Beams, scan_beams
+from ial.lidar.config import Bounds, LocalizerConfig, Precision
+from ial.lidar.lattice import Lattice
+from ial.lidar.localizer import Localizer
+from ial.lidar.pose_set import PoseSet
+from ial.lidar.sheets import Sheets
+from ial.maps.floor_plan import floor_plan
+from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.pose import Pose
+
+MOTION = MotionBounds(ErrorBound(0.05, 0.1, 0.0), ErrorBound(0.03, 0.0, 0.1))
+CONFIG = LocalizerConfig(bounds=Bounds(0.03, 0.0, 0.02, MOTION), precision=Precision(0.1, 0.05, halvings=0))
+LIDAR = Lidar(beams=72, angle_min=-math.pi, angle_increment=math.pi / 36.0, range_max=8.0)
+
+
+@pytest.fixture
+def small_sheets(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let maps of more than a few cells have sheets of 6.4 m, and keep as few of them as possible."""
+    monkeypatch.setattr(sheets, "_ONE_SHEET", 100)
+    monkeypatch.setattr(sheets, "_SIDE", 128)
+    monkeypatch.setattr(sheets, "_KEPT", 1)
+
+
+@cache
+def world() -> OccupancyGrid:
+    return floor_plan(22.0, 16.0, 0.05, 5)
+
+
+@cache
+def drive(seed: int) -> tuple[list[Pose], list[Step]]:
+    """Return a drive that is interrupted: the robot is carried elsewhere after eight scans."""
+    paths = [random_walk(world(), 8, seed + part, step_m=0.5, turn_rad=0.5) for part in (0, 1000)]
+    driven: list[Step] = []
+    for number, path in enumerate(paths):
+        part = steps(simulate(world(), path, LIDAR, SensorErrors(0.03, 0.0, 4, adversarial=True), MOTION, seed).recording, MOTION)
+        still = steps(simulate(world(), path[:1] * 2, LIDAR, SensorErrors(), MOTION, seed).recording, MOTION)
+        standing = list(still)[1].motion
+        driven += [
+            Step(each.index, each.stamp_ns, each.motion or (standing if number else None), each.scan, each.odometry) for each in part
+        ]
+    return paths[0] + paths[1], driven
+
+
+def named(poses: PoseSet) -> set[bytes]:
+    bounds = np.hstack([poses.boxes.lower, poses.boxes.upper, poses.bad[:, None], poses.carried[:, None]]) + 0.0
+    return {row.tobytes() for row in bounds}
+
+
+@pytest.mark.parametrize("outliers", [5, "auto"])
+@pytest.mark.parametrize("seed", [1, 2, 3, 4])
+def test_answers_do_not_depend_on_sheets(seed: int, outliers: int | str, small_sheets: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    in_sheets = Localizer(world(), outliers=outliers, config=CONFIG)  # type: ignore[arg-type]
+    monkeypatch.setattr(sheets, "_ONE_SHEET", 1 << 26)
+    whole = Localizer(world(), outliers=outliers, config=CONFIG)  # type: ignore[arg-type]
+    assert whole.model.sheets.one
+    assert len(in_sheets.model.universe()) == 12
+    assert [len(each.model.sheets.universe) for each in (whole, in_sheets)] == [1, 12]
+    statuses = []
+    for pose, step in zip(*drive(seed), strict=True):
+        expected, found = whole.update(step.motion, step.scan), in_sheets.update(step.motion, step.scan)
+        assert named(found.poses) == named(expected.poses)
+        assert found.poses.contains(world().pose_to_grid(pose))
+        assert (found.status, len(found.hypotheses), found.outliers_allowed) == (
+            expected.status,
+            len(expected.hypotheses),
+            expected.outliers_allowed,
+        )
+        statuses.append(found.status)
+        assert in_sheets.locate(step.scan).poses.boxes.volume() == pytest.approx(whole.locate(step.scan).poses.boxes.volume())
+    assert "lost" in statuses
+    assert len(in_sheets.model.sheets._made) == 4
+
+
+def test_a_hypothesis_that_lies_in_several_sheets_is_trimmed_in_each(small_sheets: None) -> None:
+    config = replace(CONFIG, precision=Precision(0.1, 0.05, halvings=2))
+    localizer = Localizer(world(), config=config)
+    border = 64 * localizer.model.lattice.position_m
+    path = [Pose(border - 0.03 + 0.01 * number, 2.0, 0.1 * number) for number in range(6)]
+    assert all(localizer.model.in_domain(pose) for pose in path)
+    recording = simulate(world(), path, LIDAR, SensorErrors(0.03, 0.0, 4), MOTION, 1).recording
+    across = 0
+    for pose, step in zip(path, steps(recording, MOTION), strict=True):
+        found = localizer.update(step.motion, step.scan)
+        assert found.poses.contains(world().pose_to_grid(pose))
+        across += len(list(localizer.model.sheets.parts(localizer.poses.boxes))) > 1
+        assert found.poses.boxes.volume() < localizer.poses.boxes.volume()
+    assert across >= 3
+
+
+def test_a_limit_leaves_a_coarser_answer_with_the_truth_in_it(small_sheets: None) -> None:
+    config = LocalizerConfig(bounds=CONFIG.bounds, outliers=5, max_boxes=300)
+    localizer = Localizer(world(), config=config)
+    pose, step = drive(1)[0][0], drive(1)[1][0]
+    found = localizer.update(None, step.scan)
+    assert found.limited == "boxes"
+    assert len(found.poses) <= 2 * 300
+    assert found.poses.contains(world().pose_to_grid(pose))
+
+
+def test_a_sheet_holds_every_end_of_a_beam(small_sheets: None) -> None:
+    model = Localizer(world(), config=CONFIG).model
+    for pose, step in zip(*drive(2), strict=True):
+        beams = scan_beams(step.scan, CONFIG)
+        model.sheets.reach(beams, CONFIG.bounds.map_error_m)
+        ((key, _, _),) = list(model.sheets.parts(Boxes.of([(pose.x, pose.x), (pose.y, pose.y), (0.0, 0.0)])))
+        occupied = model.sheets[key].occupied
+        far = np.hypot(*beams.ends.T).max() + 0.05
+        rows, columns = (size - 1 for size in occupied.table.shape)
+        low_row, low_column = occupied.origin
+        for low, size, at, cells in ((low_row, rows, pose.y, world().rows), (low_column, columns, pose.x, world().columns)):
+            assert low == 0 or low * 0.05 <= at - far
+            assert low + size == cells or (low + size) * 0.05 >= at + far
+
+
+def test_parts_cover_their_boxes_and_lie_in_the_cores(small_sheets: None) -> None:
+    lattice = Lattice(0.1, 0.05, 2)
+    parts = Sheets(world(), (FREE,), 1, lattice)
+    side = 64 * lattice.position_m
+    random = np.random.default_rng(0)
+    low = random.uniform([-1.0, -1.0, -3.0], [22.0, 16.0, 3.0], (500, 3))
+    low[:100, :2] = np.round(low[:100, :2] / side) * side  # on the borders, exactly
+    high = low + random.uniform(0.0, 9.0, (500, 3)) * random.integers(0, 2, (500, 3))
+    high[50:80, :2] = low[50:80, :2] + side
+    boxes = Boxes(low, high)
+    points = low + random.random((500, 3)) * (high - low)
+    points[::3] = low[::3]
+    points[1::3] = high[1::3]
+    held = np.zeros(500, dtype=np.bool_)
+    numbers = np.zeros(500, dtype=np.int64)
+    for (row, column), rows, cut in parts.parts(boxes):
+        core = np.array([[column * side, row * side], [(column + 1) * side, (row + 1) * side]])
+        assert (cut.lower[:, :2] >= core[0]).all()
+        assert (cut.upper[:, :2] <= core[1]).all()
+        assert (cut.lower <= cut.upper).all()
+        held[rows] |= ((cut.lower <= points[rows]) & (points[rows] <= cut.upper)).all(axis=1)
+        numbers[rows] += 1
+    on_map = ((points[:, :2] >= 0.0) & (points[:, :2] <= [22.0, 16.0])).all(axis=1)
+    assert held[on_map].all()
+    assert on_map.sum() > 300
+    exact = (low[50:80, :2] >= 0.0).all(axis=1) & (high[50:80, :2] <= [22.0, 16.0]).all(axis=1)
+    assert (numbers[50:80][exact] == 1).all()  # a box that is a core belongs to no neighbour
+
+
+def test_a_radius_is_kept_in_sheets_as_in_one_piece(small_sheets: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    config = LocalizerConfig(bounds=CONFIG.bounds, robot_radius_m=0.4)
+    in_sheets = Localizer(world(), config=config)
+    monkeypatch.setattr(sheets, "_ONE_SHEET", 1 << 26)
+    whole = Localizer(world(), config=config)
+    at = np.random.default_rng(3).uniform([0.0, 0.0], [22.0, 16.0], (2000, 2))
+    answers = [[each.model.in_domain(Pose(x, y)) for x, y in at.tolist()] for each in (in_sheets, whole)]
+    assert answers[0] == answers[1]
+    assert 0.1 < np.mean(answers[0]) < 0.9
+
+
+def test_a_robot_that_fits_nowhere_is_refused(small_sheets: None) -> None:
+    with pytest.raises(MapError, match="fits nowhere"):
+        Localizer(world(), config=LocalizerConfig(robot_radius_m=6.0))
+
+
+def test_beams_that_reach_across_the_map_are_no_trouble(small_sheets: None) -> None:
+    cells = np.full((300, 300), FREE, dtype=np.uint8)
+    cells[[0, -1], :] = cells[:, [0, -1]] = OCCUPIED
+    model = Localizer(OccupancyGrid(cells, 0.05), config=CONFIG).model
+    ends = np.array([[14.0, 0.0], [0.0, 14.0]])
+    model.sheets.reach(Beams(ends, ends / 14.0, np.zeros((2, 2)), 0), 0.01)
+    assert model.sheets[0, 0].occupied.table.shape == (301, 301)
