@@ -15,7 +15,8 @@ from ial.bouncing.bounce_filter import BounceFilter
 from ial.bouncing.cycle_places import CyclePlaces
 from ial.bouncing.setting import Setting
 from ial.bouncing.table import FilterTable
-from ial.errors import FilterError, IalError, OutputError
+from ial.bouncing.whole_file import write_whole
+from ial.errors import FilterError, IalError
 
 _FORM, _VERSION = "ial bounce filter", 1
 _TABLE = {"successors": np.int32, "colours": np.int32, "uncertainty": np.int64, "environments": np.uint64}
@@ -48,19 +49,12 @@ def write_filter(made: BounceFilter, path: str | Path) -> None:
     OutputError
         If it cannot be written.
     """
-    path = Path(path)
     arrays = {name: getattr(made.table, name) for name in _TABLE} | {name: getattr(made.places, name) for name in _PLACES}
     setting = made.setting.record()
     about = {"form": _FORM, "version": _VERSION, "setting": setting, "sha256": _checksum(setting, arrays)}
     content = io.BytesIO()
     np.savez_compressed(content, about=np.frombuffer(json.dumps(about).encode(), dtype=np.uint8), **arrays)
-    temporary = path.with_name(f".{path.name}.part")
-    try:
-        temporary.write_bytes(content.getbuffer())
-        temporary.replace(path)
-    except OSError as error:
-        temporary.unlink(missing_ok=True)
-        raise OutputError(f"{path}: the filter cannot be written ({error.strerror or error}); choose a folder that is writable") from None
+    write_whole({Path(path): content.getvalue()}, "the filter")
 
 
 def read_filter(path: str | Path) -> BounceFilter:

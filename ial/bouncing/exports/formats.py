@@ -1,0 +1,100 @@
+"""The formats of exports, and `export`: a filter as the files of another program."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Literal, get_args
+
+from ial.bouncing.exports.archive import plain_archive
+from ial.bouncing.exports.c_source import c_header
+from ial.bouncing.exports.csv_table import csv_text
+from ial.bouncing.exports.dot import dot_text
+from ial.bouncing.exports.exported_filter import ExportedFilter
+from ial.bouncing.exports.finite_automaton import FiniteAutomaton
+from ial.bouncing.exports.jflap import jff_text
+from ial.bouncing.exports.verilog import memory_image, verilog_module
+from ial.bouncing.whole_file import write_whole
+from ial.errors import ConfigError
+
+Format = Literal["c", "verilog", "dot", "jff", "csv", "npz"]
+
+_SUFFIXES: Mapping[str, Format] = {
+    ".h": "c",
+    ".v": "verilog",
+    ".dot": "dot",
+    ".gv": "dot",
+    ".jff": "jff",
+    ".csv": "csv",
+    ".npz": "npz",
+}
+
+
+def format_of(path: Path) -> Format:
+    """Return the format that the suffix of a file stands for.
+
+    Raises
+    ------
+    ConfigError
+        If it stands for none.
+    """
+    try:
+        return _SUFFIXES[path.suffix.lower()]
+    except KeyError:
+        raise ConfigError(
+            f"{path}: no format has the suffix {path.suffix!r}; use one of {', '.join(_SUFFIXES)}, or name the format: "
+            f"{', '.join(get_args(Format))}"
+        ) from None
+
+
+def export(
+    exported: ExportedFilter, path: str | Path, form: Format | None = None, prefix: str = "bounce", force: bool = False
+) -> list[Path]:
+    """Write a filter for another program; files appear when all of them are complete.
+
+    Parameters
+    ----------
+    exported
+        The filter.
+    path
+        The file to write. Verilog has a second one beside it, the memory image, with the suffix ``.hex``.
+    form
+        The format; that of the suffix if it is None.
+    prefix
+        What names in C and Verilog begin with.
+    force
+        Whether to draw a graph that nobody can read.
+
+    Returns
+    -------
+    list of Path
+        The files that were written.
+
+    Raises
+    ------
+    ConfigError
+        If the format is unknown, the prefix is no identifier, or a graph has too many states.
+    OutputError
+        If a file cannot be written.
+    """
+    path = Path(path)
+    form = format_of(path) if form is None else form
+    files: dict[Path, bytes] = {}
+    if form == "c":
+        files[path] = c_header(exported, prefix).encode()
+    elif form == "verilog":
+        image = path.with_suffix(".hex")
+        if image == path:
+            raise ConfigError(f"{path}: the memory image gets the suffix .hex; give the module another one, such as .v")
+        files[path] = verilog_module(exported, image.name, prefix).encode()
+        files[image] = memory_image(exported).encode()
+    elif form == "dot":
+        files[path] = dot_text(exported, force).encode()
+    elif form == "jff":
+        files[path] = jff_text(FiniteAutomaton.of_table(exported.table)).encode()
+    elif form == "csv":
+        files[path] = csv_text(exported.table).encode()
+    elif form == "npz":
+        files[path] = plain_archive(exported)
+    else:
+        raise ConfigError(f"the format {form!r} is unknown; use one of {', '.join(get_args(Format))}")
+    write_whole(files, "the export")
+    return list(files)

@@ -1,0 +1,63 @@
+"""`StatePlaces`: where a robot can be in each state of a knowledge cycle, written out as plain arrays that other programs can read."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ial.bouncing.bounce_filter import BounceFilter
+from ial.bouncing.heading_classes import HeadingClasses
+
+IntArray = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class StatePlaces:
+    """Sets of places as compressed rows: those of state s are ``places[starts[s] : starts[s + 1]]``, none if it is on no knowledge cycle.
+
+    Parameters
+    ----------
+    starts
+        int64 of shape (states + 2,): one row for each state, and an empty one for the trap.
+    places
+        Numbers of places, in increasing order within each row.
+    environment, row, column, heading_class
+        What each place is, by its number.
+    class_starts, class_headings
+        The headings of class i are ``class_headings[class_starts[i] : class_starts[i + 1]]``; no robot can tell them apart.
+    """
+
+    starts: IntArray
+    places: IntArray
+    environment: IntArray
+    row: IntArray
+    column: IntArray
+    heading_class: IntArray
+    class_starts: IntArray
+    class_headings: IntArray
+
+    @classmethod
+    def of(cls, made: BounceFilter) -> "StatePlaces":
+        """Return the places of a filter."""
+        kept, successors = made.places, made.table.successors
+        rows: dict[int, npt.NDArray[np.int32]] = {}
+        for cycle, anchor in enumerate(kept.anchors.tolist()):
+            state, found = anchor, kept.members[kept.starts[cycle] : kept.starts[cycle + 1]]
+            while state not in rows:
+                rows[state] = np.sort(found)
+                state, found = int(successors[state].min()), kept.following[found]  # the other arc leads to the trap, the last state
+        counts = np.zeros(len(made.table), dtype=np.int64)
+        for state, found in rows.items():
+            counts[state] = len(found)
+        headings = made.setting.headings
+        classes = HeadingClasses.merged(headings) if made.setting.merged else HeadingClasses.single(headings)
+        return cls(
+            np.concatenate([[0], np.cumsum(counts)]),
+            np.concatenate([rows[state] for state in sorted(rows)]).astype(np.int64),
+            kept.environment.astype(np.int64),
+            kept.row.astype(np.int64),
+            kept.column.astype(np.int64),
+            kept.heading_class.astype(np.int64),
+            np.concatenate([[0], np.cumsum(classes.sizes, dtype=np.int64)]),
+            np.argsort(classes.of, kind="stable").astype(np.int64),
+        )
