@@ -1,6 +1,8 @@
 import json
 import re
 import shlex
+import shutil
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -166,9 +168,12 @@ def test_the_page_shows_what_is_printed(ial: Cli, capsys: pytest.CaptureFixture[
     polygon, printed = blocks("text")
     Path("hall.wkt").write_text(polygon)
     Path("store.json").write_text(blocks("json")[0])
-    (console,) = blocks("console")
-    for entry in console.split("$ ial ")[1:]:
+    Path("robot.c").write_text(blocks("c")[0])
+    for entry in "".join(blocks("console")).split("$ ")[1:]:
         command, _, output = entry.partition("\n")
-        assert ial(*shlex.split(command)).stdout == output
+        if command.startswith("ial "):
+            assert ial(*shlex.split(command)[1:]).stdout == output
+        elif shutil.which("gcc"):
+            assert subprocess.run(command, shell=True, check=True, capture_output=True, text=True).stdout == output
     exec(blocks("python")[0], {})
     assert capsys.readouterr().out == printed
