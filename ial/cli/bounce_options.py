@@ -10,8 +10,9 @@ import typer
 if TYPE_CHECKING:
     from ial.maps.environment import Environment
 
-ENVIRONMENTS_HELP = "Polygons (.json, .wkt, .geojson, .svg) or a map.yaml; several if it may be in any."
-EnvironmentPaths = Annotated[list[Path], typer.Argument(metavar="ENV", help=ENVIRONMENTS_HELP)]
+EnvironmentPaths = Annotated[
+    list[Path], typer.Argument(metavar="ENV", help="Polygons (.json, .wkt, .geojson, .svg) or a map.yaml; several if it may be in any.")
+]
 Angle = Annotated[str, typer.Option("--angle", metavar="DEGREES", help="The bouncing angle, counter-clockwise: 90, 22.5 or 45/2.")]
 Cell = Annotated[
     str | None, typer.Option("--cell", metavar="METRES", help="The width of a cell; that of the map if it is left out, or 1 for polygons.")
