@@ -62,7 +62,7 @@ def draw_automaton(path: Path, table: FilterTable, name: str) -> None:
         for cycle in range(min(table.cycles, len(BRIGHT)))
     ]
     title = f"{name[:70]}: {states} states, {table.cycles} knowledge cycle{'s' * (table.cycles != 1)}"
-    across, up = right - left + 2.0, high - low + 2.0
+    across, up = right - left + 3.0, high - low + 2.0
     size = min(16.0, 0.62 * 72.0 * _WIDTH_IN / across)  # a state is a little narrower than the distance between two, in points
     labelled = size >= _SMALLEST
     remark = "at a state: in how many configurations the robot can be; " if labelled else ""
@@ -76,18 +76,11 @@ def draw_automaton(path: Path, table: FilterTable, name: str) -> None:
         for state in range(states):
             text = "white" if table.colours[state] > 1 else "#22262b"
             label = str(int(table.uncertainty[state]))
-            axes.text(
-                places[state, 0],
-                places[state, 1],
-                label,
-                ha="center",
-                va="center",
-                fontsize=min(8.0, size * 0.85 / len(label) ** 0.5),
-                color=text,
-                zorder=4,
-            )
-    axes.annotate("start", places[0], (0.0, 0.8 * size), textcoords="offset points", ha="center", fontsize=9)
-    axes.set(xlim=(left - 1.0, right + 1.0), ylim=(low - 1.0, high + 1.0), aspect="equal")
+            font = min(8.0, 1.15 * size / max(len(label), 1.6))
+            x, y = places[state]
+            axes.text(x, y, label, ha="center", va="center_baseline", fontsize=font, color=text, zorder=4)
+    axes.annotate("start", places[0], (-0.7 * size, 0.0), textcoords="offset points", ha="right", va="center", fontsize=9)
+    axes.set(xlim=(left - 2.0, right + 1.0), ylim=(low - 1.0, high + 1.0), aspect="equal")
     axes.axis("off")
     page.write(path)
 

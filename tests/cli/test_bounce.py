@@ -166,8 +166,7 @@ def test_the_page_shows_what_is_printed(ial: Cli, capsys: pytest.CaptureFixture[
     polygon, printed = blocks("text")
     Path("hall.wkt").write_text(polygon)
     Path("store.json").write_text(blocks("json")[0])
-    (console,) = blocks("console")
-    for entry in console.split("$ ial ")[1:]:
+    for entry in "".join(blocks("console")).split("$ ial ")[1:]:
         command, _, output = entry.partition("\n")
         assert ial(*shlex.split(command)).stdout == output
     exec(blocks("python")[0], {})
