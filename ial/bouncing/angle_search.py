@@ -110,26 +110,24 @@ def search_angles(
             "headings, or the angles to choose from"
         )
     choices = {turn: Headings(headings, turn, step) for turn in chosen}
-    # Headings that look alike at one angle may differ at another: they are merged only where no change of the angle comes.
-    graphs = {turn: _graph(rasters, each, corner, length == 1) for turn, each in choices.items()}
-    phases = {turn: Phase.of(graph) for turn, graph in graphs.items()}
     found = []
+    phases: dict[int, Phase] = {}
     level: list[tuple[tuple[int, ...], InformationSets]] = []
-    for turn, graph in graphs.items():
-        automaton = determinize(graph, most_states)
-        known = phases[turn].after(InformationSets.everything(graph))
-        found.append(_outcome([choices[turn].bounce_deg], known, graph, len(automaton), len(automaton.cycles)))
-        level.append(((turn,), known))
+    for turn, each in choices.items():
+        # Headings that look alike at one angle may differ at another: they are merged only where no change of the angle comes.
+        graph = disjoint_union([CellMap(raster, each, corner, merge=length == 1).graph for raster in rasters])
+        automaton, phase = determinize(graph, most_states), Phase.of(graph)
+        known = phase.after(InformationSets.everything(graph))
+        found.append(_outcome([each.bounce_deg], known, graph, len(automaton), len(automaton.cycles)))
+        if length > 1:  # else one graph at a time is enough to hold
+            phases[turn] = phase
+            level.append(((turn,), known))
     for _ in range(length - 1):
         if min(each.mean for each in found) == 1:
             break
         level = list(_longer(level, phases))
-        found += [_outcome([choices[turn].bounce_deg for turn in turns], known, graphs[turns[-1]]) for turns, known in level]
+        found += [_outcome([choices[turn].bounce_deg for turn in turns], known, phases[turns[-1]].graph) for turns, known in level]
     return sorted(found, key=lambda each: each.rank)
-
-
-def _graph(rasters: Sequence[Raster], headings: Headings, corner: Corner, merge: bool) -> LabelledGraph:
-    return disjoint_union([CellMap(raster, headings, corner, merge).graph for raster in rasters])
 
 
 def _longer(
