@@ -1,7 +1,9 @@
 """Sphinx builds the documentation from this; `make docs` turns every warning into an error."""
 
 import contextlib
+import re
 import runpy
+import shlex
 from importlib.metadata import version as version_of
 from pathlib import Path
 
@@ -45,6 +47,17 @@ def draw_pictures(app):
         for name in examples["PAGES"]:
             for section in examples["sections"](docs / name).values():
                 examples["run"](docs / name, section)
+        draw_bounces((docs / "bouncing.md").read_text(encoding="utf-8"))
+
+
+def draw_bounces(page):
+    """Run the commands of the page about the bouncing robot that lead to its pictures, on the environment that it shows."""
+    from ial.cli.main import app
+
+    Path("hall.wkt").write_text(re.search(r"```text\n(POLYGON .*)", page)[1])
+    for command in re.findall(r"^\$ ial (bounce (?:build|show) hall.*)$", page, re.MULTILINE):
+        if "store" not in command:
+            app(shlex.split(command), standalone_mode=False)
 
 
 def setup(app):

@@ -6,6 +6,8 @@ Names are loaded when they are first used.
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from ial.bouncing.angle_search import AngleSequence as AngleSequence
+    from ial.bouncing.angle_search import search_angles as search_angles
     from ial.bouncing.automaton import Automaton as Automaton
     from ial.bouncing.bank import FilterBank as FilterBank
     from ial.bouncing.bounce_filter import BounceFilter as BounceFilter
@@ -22,9 +24,11 @@ if TYPE_CHECKING:
     from ial.bouncing.groups import PeriodicGroups as PeriodicGroups
     from ial.bouncing.groups import periodic_groups as periodic_groups
     from ial.bouncing.headings import Headings as Headings
+    from ial.bouncing.information_sets import InformationSets as InformationSets
     from ial.bouncing.minimal import minimize as minimize
     from ial.bouncing.model import BouncingModel as BouncingModel
     from ial.bouncing.nondeterministic import NondeterministicAutomaton as NondeterministicAutomaton
+    from ial.bouncing.phase import Phase as Phase
     from ial.bouncing.setting import Setting as Setting
     from ial.bouncing.stream import parse_stream as parse_stream
     from ial.bouncing.table import FilterTable as FilterTable
@@ -35,6 +39,7 @@ else:
     __getattr__, __dir__, __all__ = _lazy(
         __name__,
         {
+            "angle_search": ("AngleSequence", "search_angles"),
             "automaton": ("Automaton",),
             "bank": ("FilterBank",),
             "bounce_filter": ("BounceFilter", "Place"),
@@ -46,9 +51,11 @@ else:
             "graph": ("LabelledGraph", "disjoint_union"),
             "groups": ("PeriodicGroups", "periodic_groups"),
             "headings": ("Headings",),
+            "information_sets": ("InformationSets",),
             "minimal": ("minimize",),
             "model": ("BouncingModel",),
             "nondeterministic": ("NondeterministicAutomaton",),
+            "phase": ("Phase",),
             "setting": ("Setting",),
             "stream": ("parse_stream",),
             "table": ("FilterTable",),

@@ -67,6 +67,11 @@ class BounceFilter:
         headings = self.setting.headings
         return HeadingClasses.merged(headings) if self.setting.merged else HeadingClasses.single(headings)
 
+    def step_of(self, heading_class: int) -> tuple[int, int]:
+        """Return by how many columns and rows a step leads in a class of headings, as they are numbered in the places."""
+        x, y = self._classes.offsets[heading_class]
+        return int(x), int(y)
+
     @property
     def trapped(self) -> int:
         """In how many configurations a robot is so near to obstacles all around that it can only turn on the spot, for ever."""

@@ -37,6 +37,41 @@ def free_cells(environment: Environment, cell: Fraction, radius: Fraction = Frac
     return raster
 
 
+def all_free_cells(
+    environments: Mapping[str, Environment], cell: Fraction | None = None, radius: Fraction = Fraction(0), rule: Rule = "inside"
+) -> dict[str, Raster]:
+    """Return the free cells of several environments by their names, all of one width.
+
+    Parameters
+    ----------
+    environments
+        The environments by their names.
+    cell
+        The width of a cell in metres; by default that of the grid the environments come from.
+    radius, rule
+        As for `free_cells`.
+
+    Raises
+    ------
+    ConfigError
+        If there is no environment, a number cannot be meant, or the width of a cell is not known.
+    MapError
+        If an environment has no free cell, or there would be too many.
+    """
+    if not environments:
+        raise ConfigError("no environment to be in; give at least one")
+    width = cell or next(iter(environments.values())).cell
+    if width is None or (cell is None and any(each.cell != width for each in environments.values())):
+        raise ConfigError("the width of a cell is not known, since the environments are no grids with cells of one width; give it")
+    rasters = {}
+    for name, environment in environments.items():
+        try:
+            rasters[name] = free_cells(environment, width, radius, rule)
+        except MapError as error:
+            raise MapError(f"{name}: {error}") from None
+    return rasters
+
+
 def build_filter(
     environments: Mapping[str, Environment],
     headings: Headings,
@@ -74,17 +109,7 @@ def build_filter(
     FilterError
         If there would be too many states.
     """
-    if not environments:
-        raise ConfigError("no environment to be in; give at least one")
-    width = cell or next(iter(environments.values())).cell
-    if width is None or (cell is None and any(each.cell != width for each in environments.values())):
-        raise ConfigError("the width of a cell is not known, since the environments are no grids with cells of one width; give it")
-    rasters = {}
-    for name, environment in environments.items():
-        try:
-            rasters[name] = free_cells(environment, width, radius, rule)
-        except MapError as error:
-            raise MapError(f"{name}: {error}") from None
+    rasters = all_free_cells(environments, cell, radius, rule)
     maps = [CellMap(raster, headings, corner, merge=True) for raster in rasters.values()]
     automaton = determinize(disjoint_union([each.graph for each in maps]), most_states)
     setting = Setting.of_rasters(rasters, headings, radius, rule, corner)

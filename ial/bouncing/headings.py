@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -103,6 +103,7 @@ class Headings:
         return found
 
 
+@lru_cache(maxsize=2**12)  # headings that differ by their bouncing angle only have the same offsets
 def rounded_cosine(turn: Fraction, length: Fraction) -> int:
     """Return length·cos(turn) rounded to the nearest whole number, a half away from zero: as if computed without any error.
 

@@ -10,6 +10,8 @@ from ial.cli import (
     bounce_build,
     bounce_export,
     bounce_run,
+    bounce_search_angle,
+    bounce_show,
     bounds,
     convert,
     info,
@@ -59,6 +61,8 @@ app.add_typer(maps, name="map")
 bounce.command("build")(bounce_build.build)
 bounce.command("run")(bounce_run.run)
 bounce.command("export")(bounce_export.export)
+bounce.command("search-angle")(bounce_search_angle.search_angle)
+bounce.command("show")(bounce_show.show)
 app.add_typer(bounce, name="bounce")
 
 

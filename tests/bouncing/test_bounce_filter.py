@@ -53,3 +53,11 @@ def test_what_cannot_be_built_is_refused() -> None:
     with pytest.raises(FilterError, match="more than 3 states"):
         build_filter({"room": room}, headings, Fraction(1), most_states=3)
     assert build_filter({"room": room}, headings, Fraction(1), Fraction(1)).table.uncertainty[0] == 8
+
+
+def test_the_step_of_a_class_of_headings_is_where_its_places_lead(made: BounceFilter) -> None:
+    places = made.places
+    for vertex, following in enumerate(places.following.tolist()):
+        moved = (int(places.column[following] - places.column[vertex]), int(places.row[following] - places.row[vertex]))
+        assert moved in ((0, 0), made.step_of(int(places.heading_class[vertex])))
+    assert made.step_of(0) == (1, 0)
