@@ -24,7 +24,12 @@ if TYPE_CHECKING:
     from ial.bouncing.headings import Headings as Headings
     from ial.bouncing.minimal import minimize as minimize
     from ial.bouncing.model import BouncingModel as BouncingModel
+    from ial.bouncing.motion_bounds import MotionBounds as MotionBounds
     from ial.bouncing.nondeterministic import NondeterministicAutomaton as NondeterministicAutomaton
+    from ial.bouncing.ray_model import RayModel as RayModel
+    from ial.bouncing.ray_set import RaySet as RaySet
+    from ial.bouncing.real_robot import RealPose as RealPose
+    from ial.bouncing.real_robot import RealRobot as RealRobot
     from ial.bouncing.setting import Setting as Setting
     from ial.bouncing.stream import parse_stream as parse_stream
     from ial.bouncing.table import FilterTable as FilterTable
@@ -48,7 +53,11 @@ else:
             "headings": ("Headings",),
             "minimal": ("minimize",),
             "model": ("BouncingModel",),
+            "motion_bounds": ("MotionBounds",),
             "nondeterministic": ("NondeterministicAutomaton",),
+            "ray_model": ("RayModel",),
+            "ray_set": ("RaySet",),
+            "real_robot": ("RealPose", "RealRobot"),
             "setting": ("Setting",),
             "stream": ("parse_stream",),
             "table": ("FilterTable",),

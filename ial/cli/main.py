@@ -6,7 +6,22 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
-from ial.cli import bounce_build, bounce_run, bounds, convert, info, kidnap, localize, map_info, replay, simulate, stream, warm, where
+from ial.cli import (
+    bounce_build,
+    bounce_run,
+    bounce_simulate,
+    bounds,
+    convert,
+    info,
+    kidnap,
+    localize,
+    map_info,
+    replay,
+    simulate,
+    stream,
+    warm,
+    where,
+)
 from ial.cli.outcome import exit_status
 from ial.cli.terminal import say
 
@@ -43,6 +58,7 @@ maps.command("info")(map_info.map_info)
 app.add_typer(maps, name="map")
 bounce.command("build")(bounce_build.build)
 bounce.command("run")(bounce_run.run)
+bounce.command("simulate")(bounce_simulate.simulate)
 app.add_typer(bounce, name="bounce")
 
 
