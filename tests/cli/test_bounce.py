@@ -163,15 +163,16 @@ def blocks(kind: str) -> list[str]:
 
 
 def test_the_page_shows_what_is_printed(ial: Cli, capsys: pytest.CaptureFixture[str]) -> None:
-    polygon, printed = blocks("text")
+    polygon, *printed = blocks("text")
     Path("hall.wkt").write_text(polygon)
     Path("store.json").write_text(blocks("json")[0])
-    (console,) = blocks("console")
-    for entry in console.split("$ ial ")[1:]:
+    for entry in "".join(blocks("console")).split("$ ial ")[1:]:
         command, _, output = entry.partition("\n")
         assert ial(*shlex.split(command)).stdout == output
-    exec(blocks("python")[0], {})
-    assert capsys.readouterr().out == printed
+    capsys.readouterr()
+    for code, output in zip(blocks("python"), printed, strict=True):
+        exec(code, {})
+        assert capsys.readouterr().out == output
 
 
 def test_simulate_writes_a_stream_that_run_reads(ial: Cli, hall: Path, built: Path) -> None:
