@@ -79,6 +79,24 @@ def rasterize(environment: Environment, cell: Fraction, rule: Rule = "inside") -
     return Raster(free, cell, x0, y0)
 
 
+def cover(environment: Environment, cell: Fraction) -> Raster:
+    """Return the cells that together hold all of the free space, each with a part of it inside; in the frame of `rasterize`.
+
+    Raises
+    ------
+    ConfigError, MapError
+        As `rasterize`.
+    """
+    found = rasterize(environment, cell, "centre")
+    free = found.free.copy()
+    for polygon in environment.polygons:
+        shifted = [tuple(((x - found.x) / cell, (y - found.y) / cell) for x, y in ring) for ring in polygon.rings]
+        scale = common_denominator(shifted)
+        for row, first, stop in _crossed([edge for ring in shifted for edge in edges(scaled(ring, scale))], scale):
+            free[row, first:stop] = True
+    return Raster(free, cell, found.x, found.y)
+
+
 def _fill(polygon: Polygon, rule: Rule, free: MaskArray) -> None:
     """Mark the free cells of one polygon whose coordinates count cells."""
     scale = 2 * common_denominator(polygon.rings)  # even, so that centres are whole, too

@@ -27,8 +27,18 @@ if TYPE_CHECKING:
     from ial.bouncing.information_sets import InformationSets as InformationSets
     from ial.bouncing.minimal import minimize as minimize
     from ial.bouncing.model import BouncingModel as BouncingModel
+    from ial.bouncing.motion_bounds import MotionBounds as MotionBounds
+    from ial.bouncing.noisy_map import NoisyMap as NoisyMap
+    from ial.bouncing.noisy_model import NoisyModel as NoisyModel
+    from ial.bouncing.noisy_model import SetAutomaton as SetAutomaton
+    from ial.bouncing.noisy_model import determinize_sets as determinize_sets
     from ial.bouncing.nondeterministic import NondeterministicAutomaton as NondeterministicAutomaton
     from ial.bouncing.phase import Phase as Phase
+    from ial.bouncing.ray_model import RayModel as RayModel
+    from ial.bouncing.ray_set import RaySet as RaySet
+    from ial.bouncing.real_robot import RealPose as RealPose
+    from ial.bouncing.real_robot import RealRobot as RealRobot
+    from ial.bouncing.set_graph import SetGraph as SetGraph
     from ial.bouncing.setting import Setting as Setting
     from ial.bouncing.stream import parse_stream as parse_stream
     from ial.bouncing.table import FilterTable as FilterTable
@@ -54,8 +64,15 @@ else:
             "information_sets": ("InformationSets",),
             "minimal": ("minimize",),
             "model": ("BouncingModel",),
+            "motion_bounds": ("MotionBounds",),
+            "noisy_map": ("NoisyMap",),
+            "noisy_model": ("NoisyModel", "SetAutomaton", "determinize_sets"),
             "nondeterministic": ("NondeterministicAutomaton",),
             "phase": ("Phase",),
+            "ray_model": ("RayModel",),
+            "ray_set": ("RaySet",),
+            "real_robot": ("RealPose", "RealRobot"),
+            "set_graph": ("SetGraph",),
             "setting": ("Setting",),
             "stream": ("parse_stream",),
             "table": ("FilterTable",),

@@ -12,6 +12,7 @@ from ial.cli import (
     bounce_run,
     bounce_search_angle,
     bounce_show,
+    bounce_simulate,
     bounds,
     convert,
     info,
@@ -63,6 +64,7 @@ bounce.command("run")(bounce_run.run)
 bounce.command("export")(bounce_export.export)
 bounce.command("search-angle")(bounce_search_angle.search_angle)
 bounce.command("show")(bounce_show.show)
+bounce.command("simulate")(bounce_simulate.simulate)
 app.add_typer(bounce, name="bounce")
 
 

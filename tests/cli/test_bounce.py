@@ -165,7 +165,7 @@ def blocks(kind: str) -> list[str]:
 
 
 def test_the_page_shows_what_is_printed(ial: Cli, capsys: pytest.CaptureFixture[str]) -> None:
-    polygon, printed = blocks("text")
+    polygon, *printed = blocks("text")
     Path("hall.wkt").write_text(polygon)
     Path("store.json").write_text(blocks("json")[0])
     Path("robot.c").write_text(blocks("c")[0])
@@ -175,5 +175,43 @@ def test_the_page_shows_what_is_printed(ial: Cli, capsys: pytest.CaptureFixture[
             assert ial(*shlex.split(command)[1:]).stdout == output
         elif shutil.which("gcc"):
             assert subprocess.run(command, shell=True, check=True, capture_output=True, text=True).stdout == output
-    exec(blocks("python")[0], {})
-    assert capsys.readouterr().out == printed
+    capsys.readouterr()
+    for code, output in zip(blocks("python"), printed, strict=True):
+        exec(code, {})
+        assert capsys.readouterr().out == output
+
+
+def test_simulate_writes_a_stream_that_run_reads(ial: Cli, hall: Path, built: Path) -> None:
+    command = ("bounce", "simulate", hall, "--angle", 90, "--step", 1, "--seed", 4, "--steps", 30, "--out", "stream.txt")
+    result = ial(*command, "--truth", "truth.csv")
+    assert result.exit_code == 0
+    assert re.fullmatch(r"30 observations, \d+ of them bumps, in stream.txt\nthe poses behind them in truth.csv\n", result.stdout)
+    lines = Path("truth.csv").read_text().splitlines()
+    assert lines[0] == "observation,x_m,y_m,heading_deg"
+    stream = Path("stream.txt").read_text()
+    assert stream.strip() == "".join(line[0] for line in lines[1:])
+    assert "after 30 observations" in ial("bounce", "run", built, "--file", "stream.txt").stdout
+    assert ial(*command).exit_code == 0
+    assert Path("stream.txt").read_text() == stream
+
+
+def test_simulate_starts_where_it_is_told(ial: Cli, hall: Path) -> None:
+    ial("bounce", "simulate", hall, "--start", "1/2", "0.5", "0", "--steps", 9, "--out", "s.txt", "--truth", "t.csv", "--radius", "1/4")
+    assert Path("s.txt").read_text() == "000000001\n"
+    assert Path("t.csv").read_text().splitlines()[-1] == "1,8.75,0.5,90.0"
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--noise-turn", "190"], "error of a turn is 190°"),
+        (["--noise-step", "2"], "error of a step is 2 of its length"),
+        (["--noise-count", "-1"], "error of a count is -1"),
+        (["--start", "2.5", "3", "0"], "cannot start at (2.5, 3)"),
+        (["--step", "0"], "step is 0 m"),
+        (["--angle", "x"], "--angle: 'x' is no number"),
+        (["--radius", "5"], "no free place was found"),
+    ],
+)
+def test_bad_simulations_are_refused(refused: Callable[..., str], hall: Path, options: list[str], message: str) -> None:
+    assert message in refused("bounce", "simulate", hall, "--out", "s.txt", *options)

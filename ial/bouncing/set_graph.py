@@ -1,0 +1,70 @@
+"""`SetGraph`: where a robot can go from each vertex if it can go to several: successors as compressed rows, for each label."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ial.errors import FilterError
+
+Rows = tuple[npt.NDArray[np.int64], npt.NDArray[np.int32]]
+
+MOST_ARCS = 2**30
+
+
+@dataclass(frozen=True, eq=False)
+class SetGraph:
+    """A graph with any number of arcs from each vertex, labelled 0 for a step without a bump and 1 for a bump.
+
+    Parameters
+    ----------
+    starts
+        For each label, where the successors of each vertex begin, and their number at the end: int64 of shape (vertices + 1,).
+    ends
+        For each label, the successors, int32 of shape (arcs,).
+    first
+        How many of the vertices, from 0 on, a robot can start in.
+
+    Raises
+    ------
+    FilterError
+        If an arc leads to no vertex.
+    """
+
+    starts: tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]
+    ends: tuple[npt.NDArray[np.int32], npt.NDArray[np.int32]]
+    first: int
+
+    def __post_init__(self) -> None:
+        for ends in self.ends:
+            if len(ends) and not 0 <= ends.min() <= ends.max() < len(self):
+                raise FilterError(f"an arc leads to vertex {ends.max()}, and there are {len(self)}; correct the arcs")
+
+    def __len__(self) -> int:
+        return len(self.starts[0]) - 1
+
+    @property
+    def arcs(self) -> int:
+        """How many arcs there are."""
+        return sum(map(len, self.ends))
+
+    def successors(self, vertex: int, label: int) -> npt.NDArray[np.int32]:
+        """Return where a vertex can lead with a label."""
+        return self.ends[label][self.starts[label][vertex] : self.starts[label][vertex + 1]]
+
+
+def rows_of(begins: npt.NDArray[np.int64], ends: npt.NDArray[np.int64], count: int) -> Rows:
+    """Return compressed rows of arcs in any order; repeated arcs are kept once.
+
+    Raises
+    ------
+    FilterError
+        If there are too many.
+    """
+    if len(begins) > MOST_ARCS:
+        raise FilterError(f"the graph would have {len(begins)} arcs; use larger cells, fewer headings or smaller bounds of errors")
+    keys = np.unique(begins * count + ends)
+    found, to = np.divmod(keys, count)
+    starts = np.zeros(count + 1, dtype=np.int64)
+    np.cumsum(np.bincount(found, minlength=count), out=starts[1:])
+    return starts, to.astype(np.int32)
