@@ -14,6 +14,7 @@ from ial.bouncing.ray_grid import coarsened, least_pieces
 from ial.bouncing.ray_set import RaySet
 from ial.bouncing.ray_shooting import reaches, shoot
 from ial.bouncing.walls import FloatArray, Walls
+from ial.contractors import cos, sin
 from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.intervals.trigonometric import TWO_PI_LOWER, TWO_PI_UPPER
@@ -157,9 +158,10 @@ class RayModel(Model[RaySet, None, int]):
         check_rounding()
         arrived = self._arrived(states.only(states.arriving))
         hit = self._with_corners(RaySet.joined(arrived, self._shot(states.only(~states.arriving))))
-        lower, upper = hit.lower.copy(), hit.upper.copy()
-        lower[:, 1], upper[:, 1] = _down(lower[:, 1] + self._turn[0]), _up(upper[:, 1] + self._turn[1])
         count = len(hit)
+        turn = Boxes.column(np.full(count, self._turn[0]), np.full(count, self._turn[1]))
+        turned = Boxes.column(hit.lower[:, 1], hit.upper[:, 1]) + turn
+        lower, upper = np.column_stack([hit.lower[:, 0], turned.lower]), np.column_stack([hit.upper[:, 0], turned.upper])
         left = RaySet(hit.walls, lower, upper, np.zeros(count, dtype=np.int32), np.zeros(count, dtype=np.bool_), np.full(count, np.inf))
         return self._prepared(left)
 
@@ -232,8 +234,6 @@ class RayModel(Model[RaySet, None, int]):
 
     def _moved(self, states: RaySet, near: npt.ArrayLike, far: npt.ArrayLike) -> Boxes:
         """Return boxes of x and y, counted from the origin, of robots that moved along their headings by so much from their pieces."""
-        from ial.contractors import cos, sin
-
         table, _ = self.walls.table
         wall = table[states.walls]
         part, heading = Boxes.column(states.lower[:, 0], states.upper[:, 0]), Boxes.column(states.lower[:, 1], states.upper[:, 1])
@@ -250,11 +250,3 @@ def radians(low_deg: Fraction, high_deg: Fraction) -> tuple[float, float]:
     """Return bounds in radians of an interval of degrees."""
     turn = Interval(TWO_PI_LOWER, TWO_PI_UPPER) * Interval(low_deg / _FULL_DEG, high_deg / _FULL_DEG)
     return turn.lower, turn.upper
-
-
-def _down(values: FloatArray) -> FloatArray:
-    return np.nextafter(values, -np.inf)
-
-
-def _up(values: FloatArray) -> FloatArray:
-    return np.nextafter(values, np.inf)

@@ -23,7 +23,7 @@ SOME = MotionBounds(Fraction(5), Fraction(1, 20), 1)
 
 def standing(made: NoisyMap, pose: RealPose) -> list[int]:
     """The vertices of a simulated robot: walls at thirds are rounded to 2^-112 m there, so it may stand that much behind one."""
-    some = (-Fraction(1, 10**18), Fraction(0), Fraction(1, 10**18))
+    some = (-Fraction(1, 10**30), Fraction(0), Fraction(1, 10**30))
     return [each for dx in some for dy in some for each in made.vertices(pose.x_m + dx, pose.y_m + dy, pose.turn)]
 
 

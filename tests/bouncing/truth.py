@@ -20,7 +20,7 @@ from ial.maps.polygon import ExactRing, Polygon
 
 _PI_DIGITS = 31415926535897932384626433832795028841971
 _PI = Fraction(_PI_DIGITS, 10**40), Fraction(_PI_DIGITS + 1, 10**40)
-_ON_WALL = Fraction(1, 10**18)  # metres: a simulated robot stands nearer to its wall than that
+_ON_WALL = Fraction(1, 10**30)  # metres: a simulated robot stands nearer to its wall than that
 _NEAR = 1e-6
 
 
