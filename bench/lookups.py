@@ -10,13 +10,14 @@ from ial.contractors.threads import run
 from ial.lidar.corners import OFFSET, corners
 from ial.lidar.end_points import NEAR, relative_bounds
 from ial.lidar.scan_contractor import ScanContractor
+from ial.maps.cell_index import BORDER
 
 
 @kernel
 def _walk(order, lower, upper, ends, directions, errors, q, map_error, resolution, table, firsts, indices):  # type: ignore[no-untyped-def]
     """Go the way of the scan contractor's kernel; count its tests in `firsts`, and record the indices where there is room for them."""
-    flat = table.reshape(-1)
-    rows, columns = np.int32(table.shape[0] - 1), np.int32(table.shape[1] - 1)
+    flat = table.reshape(-1)[BORDER:]
+    rows, columns = np.int32(table.shape[0] - 1), np.int32(table.shape[1] - 1 - 2 * BORDER)
     stride = np.uint64(table.shape[1])
     bounds = np.empty((len(ends), 4))
     tests = 0
@@ -73,14 +74,14 @@ class Lookups:
 
     def __init__(self, contractor: ScanContractor, boxes: Boxes) -> None:
         self._order = group_rows(boxes.lower[:, 2], boxes.upper[:, 2])
-        self._flat = contractor.occupied.table.reshape(-1)
+        self._flat = contractor.occupied.bordered.reshape(-1)[BORDER:]
         self._q = contractor.beams.outliers
         beams = contractor.beams
         evidence = (beams.ends, beams.directions, beams.errors, beams.outliers, contractor.map_error_m, contractor.occupied.resolution)
         self._firsts = np.empty(len(boxes) + 1, dtype=np.int64)
         self._indices = np.empty((0, 4), dtype=np.uint32)
         for _ in range(2):  # the first pass counts, the second records
-            _walk(self._order, boxes.lower, boxes.upper, *evidence, contractor.occupied.table, self._firsts, self._indices)
+            _walk(self._order, boxes.lower, boxes.upper, *evidence, contractor.occupied.bordered, self._firsts, self._indices)
             self.tests = int(self._firsts[-1])
             self._indices = self._indices if len(self._indices) else np.empty((self.tests, 4), dtype=np.uint32)
 

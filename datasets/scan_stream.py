@@ -109,7 +109,8 @@ class ScanStream(Reader):
             raise RecordingError("scan of a second lidar, which --laser-pose cannot place")
         mounting = self._mounting or Mounting(float(laser["x"]), float(laser["y"]), float(laser["yaw"]), laser["upside_down"])
         scan = {name: float(value) for name, value in content.items() if name in _NUMBERS}
-        ranges = np.array([np.nan if value is None else float(value) for value in content["ranges"]], dtype=np.float32)
+        with np.errstate(over="ignore"):  # beyond the largest float32 lies infinity: nothing in range
+            ranges = np.array([np.nan if value is None else float(value) for value in content["ranges"]], dtype=np.float32)
         frame = {"frame_id": str(content["frame_id"])} if "frame_id" in content else {}
         end = _sample_of(content["end"]) if "end" in content else None
         return parse_stamp(str(content["stamp"])), {**scan, **frame, "ranges": ranges, "mounting": mounting}, end

@@ -35,6 +35,8 @@ def replay(
         raise ConfigError(f"no map to localize {recording} in; give --map MAP: a map.yaml, or the recording itself if it holds the map")
     if not 0.0 < speed < float("inf"):
         raise ConfigError(f"--speed {speed:g}: give a number above 0")
+    if deadline is not None and not 0.0 < deadline < float("inf"):
+        raise ConfigError(f"--deadline {deadline:g}: give a number of seconds above 0")
     from ial.cli.config_file import resolve
     from ial.cli.job import Inputs
     from ial.contractors.threads import set_threads

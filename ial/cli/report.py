@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from ial.results.summary import Summary
 
+_MANY = 0.1  # of the scans: in a good map with good bounds it is one in hundreds
+
 
 def report(summary: "Summary", record: Mapping[str, Any]) -> Iterator[str]:
     """Yield the lines to print after a run.
@@ -21,6 +23,12 @@ def report(summary: "Summary", record: Mapping[str, Any]) -> Iterator[str]:
     scans, times = record["scans"], record["times"]
     counts = ", ".join(f"{count} {status}" for status, count in scans["by_status"].items())
     yield f"{scans['processed']} scans: {counts}; one hypothesis in {scans['one_hypothesis']}"
+    contradicted = scans["by_status"].get("lost", 0) + scans["by_status"].get("blind", 0)
+    if contradicted > _MANY * scans["processed"]:
+        yield (
+            f"doubtful: {contradicted} scans contradict what was known before; check that this is the map of the place, where the lidar "
+            "sits, and the bounds (`ial bounds`)"
+        )
     for word in ("skipped", "repaired"):
         for reason, count in scans[word].items():
             yield f"{word}: {count} × {reason}"

@@ -21,6 +21,8 @@ def stream(arguments: Sequence[str]) -> None:
         from ial.datasets.sample import sample_map_path
 
         raise ConfigError(f"no map to localize in; give --map MAP (the one of the embedded recording is {sample_map_path()})")
+    if chosen.deadline is not None and not 0.0 < chosen.deadline < math.inf:
+        raise ConfigError(f"--deadline {chosen.deadline:g}: give a number of seconds above 0")
     from ial.cli.config_file import resolve
     from ial.cli.streaming import Streaming
     from ial.contractors.threads import set_threads

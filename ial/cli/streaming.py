@@ -103,19 +103,21 @@ class Streaming:
         IalError
             If an input cannot be used or the lines cannot be written.
         """
-        localizer = Localizer(load_map(self.map_path, self.semantics, self.map_topic), config=self.config)
-        checkpoint = None if self.state is None else Checkpoint.load(self.state, localizer)
-        if checkpoint is not None:
-            localizer.resume(checkpoint.poses)
-        warm(self.config)
-        mine = fingerprint(localizer)
+        if self.state is not None and not self.state.parent.is_dir():
+            raise OutputError(f"{self.state}: there is no folder {self.state.parent} to keep the state in; make it, or choose another")
         times = Latencies()
         statuses: Counter[str] = Counter()
         with ExitStack() as stack:
+            ending = stack.enter_context(_Ending())
+            localizer = Localizer(load_map(self.map_path, self.semantics, self.map_topic), config=self.config)
+            checkpoint = None if self.state is None else Checkpoint.load(self.state, localizer)
+            if checkpoint is not None:
+                localizer.resume(checkpoint.poses)
             file = self._opened(stack, checkpoint)
+            warm(self.config)
+            mine = fingerprint(localizer)
             if checkpoint is not None:
                 remark("note", f"goes on behind scan {checkpoint.mark.index}, as {self.state} says", "cyan")
-            ending = stack.enter_context(_Ending())
             source = self._source(ending)
             for step, estimate in localize(source, localizer, after=None if checkpoint is None else checkpoint.mark):
                 self._write(file, enclosure_line(step, estimate, timed=False))
@@ -138,6 +140,8 @@ class Streaming:
         if self.out is None:
             return sys.stdout.buffer
         written = 0 if checkpoint is None else checkpoint.written
+        if self.out.is_dir():
+            raise OutputError(f"{self.out}: is a folder; name the file in it that shall hold the lines")
         try:
             held = self.out.stat().st_size if self.out.exists() else 0
             if held < written:

@@ -196,3 +196,18 @@ def test_convert_writes_the_lines_of_the_embedded_recording(
     assert "the recording itself" in refused("convert", "sample.jsonl", "--jsonl", "sample.jsonl")
     assert "cannot be written" in refused("convert", "--jsonl", "nowhere/sample.jsonl")
     assert [path.name for path in Path().iterdir()] == ["sample.jsonl"]
+
+
+@pytest.mark.parametrize("deadline", ["0", "nan", "-1", "inf"])
+def test_a_deadline_that_is_none_is_refused_by_its_name(lines: list[bytes], deadline: str) -> None:
+    result = stream(lines[:2], "--deadline", deadline)
+    assert result.returncode == 2
+    assert f"--deadline {deadline}: give a number of seconds above 0" in result.stderr.decode()
+
+
+def test_a_state_without_a_folder_and_lines_into_a_folder_are_refused_before_any_work(lines: list[bytes], tmp_path: Path) -> None:
+    for options, message in ((("--state", tmp_path / "no" / "state"), "there is no folder"), (("--out", tmp_path), "is a folder")):
+        result = stream(lines[:2], *options)
+        assert result.returncode == 2
+        assert message in result.stderr.decode()
+        assert result.stdout == b""
