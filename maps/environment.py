@@ -1,10 +1,12 @@
 """`Environment`: where a robot can move, as polygons with holes; and `load_environment`, which reads one from whatever file holds it."""
 
+import warnings
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
 from ial.errors import MapError
+from ial.maps.map_warning import MapWarning
 from ial.maps.polygon import Polygon
 
 _LARGEST_FILE = 2**26  # bytes
@@ -53,12 +55,17 @@ def load_environment(path: str | Path) -> Environment:
     ----------
     path
         ``.json`` (canonical, rational coordinates), ``.wkt``, ``.geojson``, ``.svg``, or what `load_map` takes: there the free cells are
-        the free space, in the frame of the grid.
+        the free space, in the map frame; in the frame of the grid, with a warning, if that is turned.
 
     Raises
     ------
     MapError
         If the file is missing, damaged or of another kind, or what it describes is no polygon.
+
+    Warns
+    -----
+    MapWarning
+        If the grid is turned in its map.
     """
     path = Path(path)
     if path.suffix in (".json", ".wkt", ".geojson", ".svg"):
@@ -72,7 +79,13 @@ def load_environment(path: str | Path) -> Environment:
 
     grid = load_map(path)
     cell = Fraction(repr(grid.resolution))
-    return Environment(outlines(grid.mask(FREE), cell), cell)
+    origin = grid.origin
+    if origin.theta:
+        warnings.warn(
+            f"{path}: the grid is turned by {origin.theta:g} rad in its map, so places are given in the grid", MapWarning, stacklevel=2
+        )
+        return Environment(outlines(grid.mask(FREE), cell), cell)
+    return Environment(outlines(grid.mask(FREE), cell, (Fraction(repr(origin.x)), Fraction(repr(origin.y)))), cell)
 
 
 def _from_text(path: Path) -> Environment:

@@ -13,10 +13,12 @@ from scipy import ndimage
 
 from ial.contractors.kernels import kernel
 from ial.errors import MapError
-from ial.maps.polygon import ExactRing, Polygon
+from ial.maps.polygon import ExactPoint, ExactRing, Polygon
 from ial.maps.ring import Point, doubled_area
 
 MaskArray = npt.NDArray[np.bool_]
+
+_ORIGIN = (Fraction(0), Fraction(0))
 
 
 @kernel
@@ -69,7 +71,7 @@ def _follow(cracks, corners, starts):  # type: ignore[no-untyped-def]
     return rings
 
 
-def outlines(free: MaskArray, cell: Fraction = Fraction(1)) -> tuple[Polygon, ...]:
+def outlines(free: MaskArray, cell: Fraction = Fraction(1), corner: ExactPoint = _ORIGIN) -> tuple[Polygon, ...]:
     """Return the free cells of a grid as polygons, one for each 4-connected part, in the order of their lowest rows.
 
     Parameters
@@ -78,11 +80,13 @@ def outlines(free: MaskArray, cell: Fraction = Fraction(1)) -> tuple[Polygon, ..
         bool of shape (rows, columns), row 0 at the bottom.
     cell
         The width of a cell.
+    corner
+        Where the lower left corner of the grid lies.
 
     Returns
     -------
     tuple
-        Corners are multiples of the width of a cell. Rings that would pass a corner twice are split there, so that rings touch.
+        Corners are multiples of the width of a cell from there. Rings that would pass a corner twice are split there, so that rings touch.
 
     Raises
     ------
@@ -102,7 +106,7 @@ def outlines(free: MaskArray, cell: Fraction = Fraction(1)) -> tuple[Polygon, ..
         ring: list[Point] = [(int(x), int(y)) for x, y in corners[starts[at] : starts[at + 1]]]
         part = int(parts[ring[0][1], ring[0][0]])  # its first edge runs to the right, below a free cell
         for simple in _split(ring):
-            exact = tuple((x * cell, y * cell) for x, y in simple)
+            exact = tuple((corner[0] + x * cell, corner[1] + y * cell) for x, y in simple)
             if doubled_area(simple) > 0:
                 outer[part] = exact
             else:

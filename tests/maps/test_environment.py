@@ -9,11 +9,13 @@ from ial.errors import MapError
 from ial.maps.environment import Environment, load_environment
 from ial.maps.geojson import parse_geojson
 from ial.maps.map_file import write_map
+from ial.maps.map_warning import MapWarning
 from ial.maps.occupancy_grid import OccupancyGrid
 from ial.maps.polygon import Polygon
 from ial.maps.polygon_json import parse_polygon_json, polygon_json
 from ial.maps.svg import parse_svg
 from ial.maps.wkt import parse_wkt, wkt
+from ial.pose import Pose
 
 RING = [[0, 0], [8, 0], [8, 4], [0, 4], [0, 0]]
 HOLE = [[1, 1], [1, 2], [2, 2], [2, 1], [1, 1]]
@@ -59,6 +61,16 @@ def test_the_free_cells_of_a_map_are_the_environment(tmp_path: Path) -> None:
     environment = load_environment(tmp_path / "map.yaml")
     assert environment.cell == Fraction(1, 20)
     assert environment.area == Fraction(33, 400)
+    assert environment.bounds == (0, 0, Fraction(7, 20), Fraction(1, 4))
+
+
+def test_places_are_in_the_map_frame_unless_the_grid_is_turned_in_it(tmp_path: Path) -> None:
+    cells = np.zeros((5, 7), dtype=np.uint8)
+    write_map(OccupancyGrid(cells, 0.05, Pose(-1.5, 2.25)), tmp_path / "map.yaml")
+    assert load_environment(tmp_path / "map.yaml").bounds == (Fraction(-3, 2), Fraction(9, 4), Fraction(-23, 20), Fraction(5, 2))
+    write_map(OccupancyGrid(cells, 0.05, Pose(-1.5, 2.25, 0.5)), tmp_path / "turned.yaml")
+    with pytest.warns(MapWarning, match=r"turned by 0.5 rad"):
+        assert load_environment(tmp_path / "turned.yaml").bounds == (0, 0, Fraction(7, 20), Fraction(1, 4))
 
 
 def test_an_svg_with_polygons_has_its_y_axis_turned() -> None:
