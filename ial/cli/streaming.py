@@ -27,6 +27,8 @@ from ial.pose import Pose
 from ial.results.enclosures import enclosure_line
 from ial.results.latencies import Latencies
 
+_OPENING = b'{"stamp": '
+
 
 class _EndError(Exception):
     """The process was asked to end while it waited for input."""
@@ -146,7 +148,7 @@ class Streaming:
             held = self.out.stat().st_size if self.out.exists() else 0
             if held < written:
                 raise OutputError(f"{self.out}: holds {held} bytes, but {self.state} knows of {written}; remove both to begin anew")
-            if held and checkpoint is None:
+            if held and checkpoint is None and not (self.state is not None and _begun(self.out)):
                 raise OutputError(f"{self.out}: exists already; give the --state it belongs to, or another file")
             file = stack.enter_context(self.out.open("r+b" if held else "w+b"))
             file.truncate(written)
@@ -166,6 +168,13 @@ class Streaming:
             raise OutputError(
                 f"{self.out or 'standard output'}: cannot be written ({error.strerror or error}); is the disk full?"
             ) from None
+
+
+def _begun(path: Path) -> bool:
+    """Return whether a file holds nothing but a first line, or its beginning: killed there, a run has not written its state yet."""
+    with path.open("rb") as file:
+        line = file.readline()
+        return line[: len(_OPENING)] == _OPENING[: len(line)] and not file.read(1)
 
 
 def _close(source: Recording, statuses: Counter[str], times: Latencies) -> None:

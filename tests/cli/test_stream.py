@@ -211,3 +211,21 @@ def test_a_state_without_a_folder_and_lines_into_a_folder_are_refused_before_any
         assert result.returncode == 2
         assert message in result.stderr.decode()
         assert result.stdout == b""
+
+
+@pytest.mark.parametrize("bytes_written", [0, 5, 200, None])
+def test_killed_before_the_first_state_it_begins_anew(lines: list[bytes], expected: bytes, bytes_written: int | None) -> None:
+    Path("out.jsonl").write_bytes(expected.splitlines(keepends=True)[0][:bytes_written])
+    result = stream(lines, "--out", "out.jsonl", "--state", "state")
+    assert result.returncode == 0, result.stderr
+    assert Path("out.jsonl").read_bytes() == expected
+
+
+def test_what_another_run_has_written_is_not_overwritten(lines: list[bytes], expected: bytes) -> None:
+    first, second = expected.splitlines(keepends=True)[:2]
+    for held, options in ((first + second, ("--state", "state")), (first, ()), (b"mine", ("--state", "state"))):
+        Path("out.jsonl").write_bytes(held)
+        result = stream(lines[:2], "--out", "out.jsonl", *options)
+        assert result.returncode == 2
+        assert b"exists already" in result.stderr
+        assert Path("out.jsonl").read_bytes() == held
