@@ -13,8 +13,9 @@ from ial.bouncing.determinization import determinize
 from ial.bouncing.headings import Headings
 from ial.bouncing.motion_bounds import MotionBounds
 from ial.bouncing.noisy_map import NoisyMap
-from ial.bouncing.noisy_model import NoisyModel, determinize_sets
+from ial.bouncing.noisy_model import NoisyModel
 from ial.bouncing.real_robot import RealRobot
+from ial.bouncing.set_automaton import determinize_sets
 from ial.errors import FilterError
 from ial.maps.environment import Environment
 from ial.maps.polygon import Polygon

@@ -30,14 +30,14 @@ if TYPE_CHECKING:
     from ial.bouncing.motion_bounds import MotionBounds as MotionBounds
     from ial.bouncing.noisy_map import NoisyMap as NoisyMap
     from ial.bouncing.noisy_model import NoisyModel as NoisyModel
-    from ial.bouncing.noisy_model import SetAutomaton as SetAutomaton
-    from ial.bouncing.noisy_model import determinize_sets as determinize_sets
     from ial.bouncing.nondeterministic import NondeterministicAutomaton as NondeterministicAutomaton
     from ial.bouncing.phase import Phase as Phase
     from ial.bouncing.ray_model import RayModel as RayModel
     from ial.bouncing.ray_set import RaySet as RaySet
     from ial.bouncing.real_robot import RealPose as RealPose
     from ial.bouncing.real_robot import RealRobot as RealRobot
+    from ial.bouncing.set_automaton import SetAutomaton as SetAutomaton
+    from ial.bouncing.set_automaton import determinize_sets as determinize_sets
     from ial.bouncing.set_graph import SetGraph as SetGraph
     from ial.bouncing.setting import Setting as Setting
     from ial.bouncing.stream import parse_stream as parse_stream
@@ -66,12 +66,13 @@ else:
             "model": ("BouncingModel",),
             "motion_bounds": ("MotionBounds",),
             "noisy_map": ("NoisyMap",),
-            "noisy_model": ("NoisyModel", "SetAutomaton", "determinize_sets"),
+            "noisy_model": ("NoisyModel",),
             "nondeterministic": ("NondeterministicAutomaton",),
             "phase": ("Phase",),
             "ray_model": ("RayModel",),
             "ray_set": ("RaySet",),
             "real_robot": ("RealPose", "RealRobot"),
+            "set_automaton": ("SetAutomaton", "determinize_sets"),
             "set_graph": ("SetGraph",),
             "setting": ("Setting",),
             "stream": ("parse_stream",),

@@ -88,6 +88,17 @@ class Lattice:
         return tiles.boxes(self.position_m, layer_edges(self.layers))
 
 
+def divide(resolution: float, position_m: float) -> tuple[int, int]:
+    """Return into how many parts the cells of a map are split along an axis, and of how many such parts a cell of the lattice consists.
+
+    The second number is at least 2: a cell of the answer is kept if one of its parts may hold a consistent pose. Parts exclude more than
+    whole cells do, while whole cells keep what belongs together connected.
+    """
+    if 2.0 * resolution <= position_m * (1.0 + 1e-6):
+        return 1, math.floor(position_m / resolution * (1.0 + 1e-6))
+    return math.ceil(2.0 * resolution / position_m * (1.0 - 1e-6)), 2
+
+
 def _rounded_up(width: float) -> float:
     """Return a width of 24 significant bits. Its multiples are exact up to 2^29, and bisecting a multiple of a power of two meets them.
 

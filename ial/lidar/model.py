@@ -1,7 +1,5 @@
 """`LidarModel`: a robot with a planar lidar in an occupancy grid, as an instance of `ial.membership.Model`."""
 
-import math
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -14,11 +12,12 @@ from ial.contractors.paving.paver import pave
 from ial.contractors.paving.waiting import Order
 from ial.datasets.motion import Motion
 from ial.errors import ConfigError
+from ial.lidar.allowance import allowing
 from ial.lidar.beams import Beams
 from ial.lidar.cell_counts import count_cells
 from ial.lidar.config import LocalizerConfig
 from ial.lidar.free_space import count_blocked
-from ial.lidar.lattice import Lattice
+from ial.lidar.lattice import Lattice, divide
 from ial.lidar.pose_contractor import PoseContractor
 from ial.lidar.pose_set import PoseSet, join, unite
 from ial.lidar.prediction import in_rows, move
@@ -38,8 +37,7 @@ _BATCH = 1 << 14  # larger ones sweep more of a map's table than the caches hold
 _LAID_OUT_CELLS = 1 << 17  # above, a set is laid out coarser, and refined by the scan
 _SEARCHING = 0.5  # the share of a scan's time that searches may take; laying out the set and telling its hypotheses apart takes the rest
 _CELLS_PER_S = 2.5e5  # that are laid out where time is limited, for each second of it
-_MANY = 1 << 12  # boxes of a set
-_TRIMMED = 1 << 10  # the same
+_TRIMMED = 1 << 10  # boxes of a set
 _FIRST_TILES = 16  # that are tried while it is not known how long one takes
 
 
@@ -135,14 +133,14 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         if tiles is None:
             return self.contract(PoseSet(self._laid_out(moved, volume), outliers=states.outliers), reading)
         sheet = self.sheets[keys[0]]
-        return _allowing(reading, states, lambda most: self._coarsened(self._tried(sheet, tiles, moved, most), most))
+        return allowing(reading, states, lambda most: self._coarsened(self._tried(sheet, tiles, moved, most), most))
 
     def contract(self, states: PoseSet, reading: Beams) -> PoseSet:
         """Return the poses that a scan allows. Confirmed and carried ones stay apart while both survive; what is both is confirmed."""
         if not reading.informative:
             return states
         self.sheets.reach(reading, self.config.bounds.map_error_m)
-        return _allowing(reading, states, lambda most: self._contracted(states, most))
+        return allowing(reading, states, lambda most: self._contracted(states, most))
 
     def _contracted(self, states: PoseSet, reading: Beams) -> PoseSet:
         confirmed, carried = (self._paved(states.boxes[rows], reading) for rows in (~states.carried, states.carried))
@@ -266,44 +264,3 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         if len(found) and self.config.recovery == "restart":
             return found
         return unite(found, predicted)
-
-
-def _allowing(reading: Beams, states: PoseSet, search: Callable[[Beams], PoseSet]) -> PoseSet:
-    """Return what a search leaves, with as many bad beams as the reading allows.
-
-    Where the reading leaves the number open it is the smallest one that leaves a pose, plus the margin. The search is repeated with more
-    until it leaves one; what was allowed before is a good guess. Nothing is left if more were needed than the limit, or than a jump allows.
-
-    Parameters
-    ----------
-    states
-        What was known before, with how many beams might be bad at the scan before; 0 if there was none.
-    """
-    if reading.margin is None:
-        return search(reading)
-    before = states.outliers
-    limit = reading.outliers if reading.jump is None or not before else min(reading.outliers, before + reading.jump)
-    guess = before if len(states) < _MANY else 0  # a large set is what a scan with many bad beams has left: few more come as bad
-    most = min(max(guess, 2 * reading.margin), limit)
-    while True:
-        found = search(reading.allowing(most))
-        if len(found):
-            needed = most if found.limited else min(int(found.bad.min()) + reading.margin, limit)
-            if needed <= most:
-                return found.within(needed)
-            most = needed
-        elif most == limit:
-            return found
-        else:
-            most = min(2 * most + 1, limit)
-
-
-def divide(resolution: float, position_m: float) -> tuple[int, int]:
-    """Return into how many parts the cells of a map are split along an axis, and of how many such parts a cell of the lattice consists.
-
-    The second number is at least 2: a cell of the answer is kept if one of its parts may hold a consistent pose. Parts exclude more than
-    whole cells do, while whole cells keep what belongs together connected.
-    """
-    if 2.0 * resolution <= position_m * (1.0 + 1e-6):
-        return 1, math.floor(position_m / resolution * (1.0 + 1e-6))
-    return math.ceil(2.0 * resolution / position_m * (1.0 - 1e-6)), 2

@@ -90,7 +90,9 @@ class Sheets:
         self._cells = 1 << max(int(math.log2(_SIDE / lattice.parts)), int(math.log2(TILE_COLUMNS)))
         self._side_m = self._cells * lattice.position_m
         one = grid.rows * grid.columns * split**2 <= _ONE_SHEET
-        self._rows, self._columns = (1, 1) if one else (math.ceil(size / self._side_m) for size in (grid.height_m, grid.width_m))
+        self._rows, self._columns = (
+            (1, 1) if one else (math.ceil(size / self._side_m * _ROUND_UP) for size in (grid.height_m, grid.width_m))
+        )
         self._root = lattice.root(grid.width_m, grid.height_m)
         if radius_m and not any(self._roomy(*self._window((row, column))).any() for row, column in np.ndindex(self._rows, self._columns)):
             raise MapError(f"a robot with a radius of {radius_m:g} m fits nowhere in this map; give a smaller robot_radius_m")

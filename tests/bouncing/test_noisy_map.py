@@ -9,8 +9,9 @@ from ial.bouncing.headings import Headings
 from ial.bouncing.model import BouncingModel
 from ial.bouncing.motion_bounds import MotionBounds
 from ial.bouncing.noisy_map import NoisyMap
-from ial.bouncing.noisy_model import NoisyModel, determinize_sets
+from ial.bouncing.noisy_model import NoisyModel
 from ial.bouncing.real_robot import RealPose, RealRobot
+from ial.bouncing.set_automaton import determinize_sets
 from ial.bouncing.set_graph import SetGraph, rows_of
 from ial.errors import FilterError
 from ial.membership import Rejection, SetMembershipFilter

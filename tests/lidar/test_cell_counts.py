@@ -6,8 +6,7 @@ import pytest
 from ial.contractors.boxes import Boxes
 from ial.contractors.threads import set_threads
 from ial.lidar.cell_counts import count_cells
-from ial.lidar.lattice import Lattice
-from ial.lidar.model import divide
+from ial.lidar.lattice import Lattice, divide
 from ial.lidar.scan_contractor import ScanContractor
 from ial.maps.cell_index import CellIndex
 from tests.lidar.twin import World
