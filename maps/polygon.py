@@ -99,7 +99,7 @@ def _check_ring(ring: Ring, name: str) -> None:
     if len(set(ring)) < len(ring):
         raise MapError(f"{name} has a corner twice; give each corner once, and leave out the repeated first one")
     if doubled_area(ring) == 0:
-        raise MapError(f"{name} has no area; give corners that do not lie on a line")
+        raise MapError(f"{name} has no area: its corners lie on a line, or it crosses itself; give a simple ring")
 
 
 def _near_pairs(rings: list[list[Point]]) -> Iterator[tuple[tuple[int, int, Point, Point], tuple[int, int, Point, Point]]]:

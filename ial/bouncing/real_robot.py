@@ -84,6 +84,10 @@ class RealRobot:
     ) -> None:
         if step_m <= 0:
             raise ConfigError(f"the step is {float(step_m):g} m; give a length greater than 0")
+        if bounce_deg % 360 == 0:
+            raise ConfigError(
+                "the bouncing angle is a multiple of 360°, so a robot at a wall would stay there for ever; give another angle"
+            )
         if radius_m < 0:
             raise ConfigError(f"the radius of the robot is {float(radius_m):g} m; give 0 for a point, or a positive number")
         self.bounce, self.step, self.radius, self.bounds = bounce_deg / _FULL_DEG, step_m, _whole(radius_m), bounds

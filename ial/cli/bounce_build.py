@@ -1,5 +1,6 @@
 """`ial bounce build`: the filter of a bouncing robot, compiled from its environments."""
 
+import shlex
 from pathlib import Path
 from typing import Annotated
 
@@ -41,8 +42,10 @@ def build(
     from ial.bouncing.building import build_filter
     from ial.bouncing.filter_file import write_filter
     from ial.bouncing.headings import Headings
+    from ial.cli.bounce_outputs import check_outputs
     from ial.cli.bounce_report import about, lines
 
+    check_outputs([out], environments)
     loaded = read_environments(environments)
     width = cell_width(loaded, cell)
     robot = Headings.of_angle(number(angle, "--angle"), headings, step_cells(step, loaded, width))
@@ -53,4 +56,4 @@ def build(
         return
     for line in lines(about(made)):
         say(line)
-    say(f"filter in {shown(out)}; use it with: ial bounce run {shown(out)} --stream 0010001")
+    say(f"filter in {shown(out)}; use it with: ial bounce run {shlex.quote(str(shown(out)))} --stream 0010001")

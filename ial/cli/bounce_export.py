@@ -6,7 +6,6 @@ from typing import Annotated, Literal
 import typer
 
 from ial.cli.terminal import remark, say, shown
-from ial.errors import ConfigError
 
 
 def export(
@@ -30,11 +29,11 @@ def export(
     from ial.bouncing.exports.c_tables import CTables
     from ial.bouncing.exports.exported_filter import ExportedFilter
     from ial.bouncing.filter_file import read_filter
+    from ial.cli.bounce_outputs import check_outputs
 
     form = formats.format_of(out) if form is None else form
+    check_outputs([out], [filter_path])
     exported = ExportedFilter.of(read_filter(filter_path), minimize, restart)
-    if out.exists() and out.samefile(filter_path):
-        raise ConfigError(f"{out}: this is the filter itself, which the export would replace; give another file")
     files = formats.export(exported, out, form, prefix, force)
     say(f"{len(exported.table) - 1} states and a trap in {' and '.join(shown(file) for file in files)}")
     if form == "c":

@@ -49,8 +49,12 @@ def show(
     from ial.bouncing.building import all_free_cells, build_filter
     from ial.bouncing.filter_file import read_filter
     from ial.bouncing.headings import Headings
+    from ial.cli.bounce_outputs import check_outputs
     from ial.errors import ConfigError
 
+    check_outputs([out], paths)
+    if late := next((path for path in paths[1:] if path.suffix == ".npz"), None):
+        raise ConfigError(f"{late}: a filter comes first, and its environments behind it: {late.name} ENV …")
     if paths[0].suffix == ".npz":
         made = read_filter(paths[0])
         rasters = _walls(made, paths[1:])

@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from ial.cli.bounce_options import number
 from ial.cli.terminal import say, shown
 
 
@@ -25,22 +26,15 @@ def simulate(
     truth: Annotated[Path | None, typer.Option(metavar="CSV", help="Where to write the pose behind each observation.")] = None,
 ) -> None:
     """Drive a bouncing robot through an environment, with real geometry and errors within bounds, and write down what it observes."""
-    from fractions import Fraction
     from itertools import islice
 
     from ial.bouncing.motion_bounds import MotionBounds
     from ial.bouncing.real_robot import RealRobot
     from ial.bouncing.stream_file import write_stream, write_truth
-    from ial.errors import ConfigError, MapError
+    from ial.cli.bounce_outputs import check_outputs
     from ial.maps.environment import load_environment
-    from ial.maps.exact_number import exact_number
 
-    def number(text: str, option: str) -> Fraction:
-        try:
-            return exact_number(text, option)
-        except MapError as error:
-            raise ConfigError(str(error)) from None
-
+    check_outputs([out] if truth is None else [out, truth], [environment])
     loaded = load_environment(environment)
     bounds = MotionBounds(number(noise_turn, "--noise-turn"), number(noise_step, "--noise-step"), noise_count)
     place = None

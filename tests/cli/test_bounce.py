@@ -209,9 +209,28 @@ def test_simulate_starts_where_it_is_told(ial: Cli, hall: Path) -> None:
         (["--noise-count", "-1"], "error of a count is -1"),
         (["--start", "2.5", "3", "0"], "cannot start at (2.5, 3)"),
         (["--step", "0"], "step is 0 m"),
+        (["--angle", "0"], "multiple of 360°"),
         (["--angle", "x"], "--angle: 'x' is no number"),
         (["--radius", "5"], "no free place was found"),
     ],
 )
 def test_bad_simulations_are_refused(refused: Callable[..., str], hall: Path, options: list[str], message: str) -> None:
     assert message in refused("bounce", "simulate", hall, "--out", "s.txt", *options)
+
+
+def test_nothing_that_is_read_is_overwritten_and_no_output_is_lost(refused: Callable[..., str], hall: Path, built: Path) -> None:
+    read, filtered = hall.read_bytes(), built.read_bytes()
+    assert "an input of the command" in refused("bounce", "build", hall, "--out", hall)
+    assert "an input of the command" in refused("bounce", "show", built, hall, "--out", hall)
+    assert "an input of the command" in refused("bounce", "show", built, "--out", built)
+    assert "an input of the command" in refused("bounce", "simulate", hall, "--out", "s.txt", "--truth", hall)
+    assert "written twice" in refused("bounce", "simulate", hall, "--out", "s.txt", "--truth", "s.txt")
+    assert "no folder nowhere" in refused("bounce", "simulate", hall, "--out", "s.txt", "--truth", "nowhere/t.csv")
+    for out in (".", "", "/"):
+        assert "is a folder" in refused("bounce", "build", hall, "--out", out)
+    assert (hall.read_bytes(), built.read_bytes()) == (read, filtered)
+    assert not Path("s.txt").exists()
+
+
+def test_a_filter_with_a_space_in_its_name_is_quoted(ial: Cli, hall: Path) -> None:
+    assert "ial bounce run 'my filter.npz' --stream" in ial("bounce", "build", hall, "--out", "my filter.npz").stdout

@@ -81,8 +81,8 @@ def test_a_large_graph_is_forced(ial: Cli, refused: Callable[..., str]) -> None:
     [
         (["--out", "hall.txt"], "hall.txt: no format has the suffix '.txt'; use one of .h, .v"),
         (["--out", "hall.h", "--prefix", "9"], "the prefix '9' is no identifier"),
-        (["--out", "hall.npz"], "hall.npz: this is the filter itself"),
-        (["--out", "nowhere/hall.h"], "the export cannot be written"),
+        (["--out", "hall.npz"], "hall.npz: this is an input of the command"),
+        (["--out", "nowhere/hall.h"], "there is no folder nowhere"),
     ],
 )
 def test_bad_input_is_refused(refused: Callable[..., str], built: Path, options: list[str], message: str) -> None:
@@ -107,5 +107,5 @@ def test_files_that_are_no_filters_are_refused(ial: Cli, refused: Callable[..., 
 def test_a_filter_of_another_name_is_the_same_file(built: Path, refused: Callable[..., str]) -> None:
     Path("link.npz").hardlink_to(built)
     before = built.read_bytes()
-    assert "this is the filter itself" in refused("bounce", "export", built, "--out", "link.npz")
+    assert "this is an input of the command" in refused("bounce", "export", built, "--out", "link.npz")
     assert built.read_bytes() == before

@@ -38,6 +38,7 @@ def test_a_filter_alone(ial: Cli, built: Path, refused: Callable[..., str]) -> N
 
 
 def test_what_cannot_be_shown(built: Path, hall: Path, refused: Callable[..., str]) -> None:
+    assert "a filter comes first" in refused("bounce", "show", hall, built, "--out", "one.png")
     Path("room.wkt").write_text("POLYGON ((0 0, 5 0, 5 3, 0 3, 0 0))")
     assert "the filter is one of hall, not of room" in refused("bounce", "show", built, "room.wkt", "--out", "a.png")
     hall.write_text("POLYGON ((0 0, 4 0, 4 3, 3 3, 3 4, 0 4, 0 0))")
