@@ -17,9 +17,10 @@ from ial.datasets.odometry import Odometry
 from ial.datasets.recording import Mark
 from ial.errors import OutputError, RecordingError
 from ial.lidar.localizer import Localizer
+from ial.lidar.output_end import OutputEnd
 from ial.lidar.pose_set import PoseSet
 
-_FORM = "ial checkpoint 1"
+_FORM = "ial checkpoint 2"
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,15 +33,15 @@ class Checkpoint:
         The last processed scan.
     poses
         The set of poses behind it, in the grid's frame.
-    written
-        How many bytes of results had been written then.
+    output
+        The file of the answers and the line of that scan, which may be missing there; None if there is no such file.
     fingerprint
         Of the localizer; see `fingerprint`.
     """
 
     mark: Mark
     poses: PoseSet
-    written: int
+    output: OutputEnd | None
     fingerprint: str
 
     def save(self, path: Path) -> None:
@@ -57,7 +58,7 @@ class Checkpoint:
             "index": self.mark.index,
             "stamp_ns": self.mark.stamp_ns,
             "odometry": asdict(self.mark.odometry),
-            "written": self.written,
+            "output": None if self.output is None else asdict(self.output),
             "fingerprint": self.fingerprint,
             "limited": poses.limited,
             "outliers": poses.outliers,
@@ -65,9 +66,11 @@ class Checkpoint:
         content = io.BytesIO()
         text = np.frombuffer(json.dumps(about).encode(), dtype=np.uint8)
         np.savez(content, about=text, lower=poses.boxes.lower, upper=poses.boxes.upper, carried=poses.carried, bad=poses.bad)
-        temporary = path.with_name(f".{path.name}.part")
+        temporary = unfinished(path)
         try:
-            temporary.write_bytes(content.getbuffer())
+            temporary.unlink(missing_ok=True)  # what a killed run has left; were it a link, the file behind that would be written to
+            with temporary.open("xb") as file:
+                file.write(content.getbuffer())
             temporary.replace(path)
         except OSError as error:
             temporary.unlink(missing_ok=True)
@@ -95,18 +98,26 @@ class Checkpoint:
                     outliers=int(about["outliers"]),
                 )
             mark = Mark(int(about["index"]), int(about["stamp_ns"]), Odometry(**about["odometry"]))
-            found = cls(mark, poses, int(about["written"]), str(about["fingerprint"]))
+            output = None if about["output"] is None else OutputEnd(**about["output"])
+            found = cls(mark, poses, output, str(about["fingerprint"]))
         except FileNotFoundError:
             return None
         except OSError as error:
             raise RecordingError(f"{path}: the state cannot be read ({error.strerror or error}); check the path") from None
         except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile):
-            raise RecordingError(f"{path}: no state that ial has written, or a damaged one; remove it to begin anew") from None
+            raise RecordingError(
+                f"{path}: no state that this version of ial has written, or a damaged one; give another file, or remove it to begin anew"
+            ) from None
         if found.fingerprint != fingerprint(localizer):
             raise RecordingError(
                 f"{path}: this state belongs to another map, configuration or version of ial; use those, or remove it to begin anew"
             )
         return found
+
+
+def unfinished(path: Path) -> Path:
+    """Return where a state is written before it gets its name."""
+    return path.with_name(f".{path.name}.part")
 
 
 def fingerprint(localizer: Localizer) -> str:
