@@ -1,4 +1,4 @@
-"""`whole_files`: files that appear under their names only when all of them are complete."""
+"""Files that have their names only when they are complete."""
 
 import errno
 import os
@@ -49,3 +49,30 @@ def whole_files(*paths: str | Path, what: str = "the file") -> Iterator[tuple[Pa
         for part in lent:
             with suppress(OSError):
                 part.unlink(missing_ok=True)
+
+
+def rewrite(path: Path, content: bytes | memoryview, what: str) -> None:
+    """Replace a file that is replaced often; a process that is killed meanwhile leaves the one before.
+
+    It may leave half a file, too. So that these do not gather, they have one name (`unfinished`), which the next call takes again.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be written.
+    """
+    part = unfinished(path)
+    try:
+        part.unlink(missing_ok=True)  # were it a link, the file behind it would be written to
+        with part.open("xb") as file:
+            file.write(content)
+        part.replace(path)
+    except OSError as error:
+        with suppress(OSError):
+            part.unlink(missing_ok=True)
+        raise OutputError(f"{path}: {what} cannot be written ({error.strerror or error}); is the disk full?") from None
+
+
+def unfinished(path: Path) -> Path:
+    """Return the name under which `rewrite` writes."""
+    return path.with_name(f".{path.name}.part")

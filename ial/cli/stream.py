@@ -46,7 +46,7 @@ def stream(arguments: Sequence[str]) -> None:
 
 def _check_outputs(chosen: argparse.Namespace, state: Path | None) -> None:
     from ial.cli.outputs import STDIN, STDOUT, check_outputs, check_places
-    from ial.lidar.checkpoint import unfinished
+    from ial.whole_file import unfinished
 
     states = [] if state is None else [state, unfinished(state)]
     check_places([chosen.out or STDOUT, *states], [chosen.recording or STDIN, chosen.map, chosen.config])

@@ -15,10 +15,11 @@ from ial.contractors.boxes import Boxes
 from ial.contractors.paving.limits import Limit
 from ial.datasets.odometry import Odometry
 from ial.datasets.recording import Mark
-from ial.errors import OutputError, RecordingError
+from ial.errors import RecordingError
 from ial.lidar.localizer import Localizer
 from ial.lidar.output_end import OutputEnd
 from ial.lidar.pose_set import PoseSet
+from ial.whole_file import rewrite
 
 _FORM = "ial checkpoint 2"
 
@@ -66,15 +67,7 @@ class Checkpoint:
         content = io.BytesIO()
         text = np.frombuffer(json.dumps(about).encode(), dtype=np.uint8)
         np.savez(content, about=text, lower=poses.boxes.lower, upper=poses.boxes.upper, carried=poses.carried, bad=poses.bad)
-        temporary = unfinished(path)
-        try:
-            temporary.unlink(missing_ok=True)  # what a killed run has left; were it a link, the file behind that would be written to
-            with temporary.open("xb") as file:
-                file.write(content.getbuffer())
-            temporary.replace(path)
-        except OSError as error:
-            temporary.unlink(missing_ok=True)
-            raise OutputError(f"{path}: the state cannot be written ({error.strerror or error}); is the disk full?") from None
+        rewrite(path, content.getbuffer(), "the state")
 
     @classmethod
     def load(cls, path: Path, localizer: Localizer) -> "Checkpoint | None":
@@ -113,11 +106,6 @@ class Checkpoint:
                 f"{path}: this state belongs to another map, configuration or version of ial; use those, or remove it to begin anew"
             )
         return found
-
-
-def unfinished(path: Path) -> Path:
-    """Return where a state is written before it gets its name."""
-    return path.with_name(f".{path.name}.part")
 
 
 def fingerprint(localizer: Localizer) -> str:
