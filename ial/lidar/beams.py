@@ -12,6 +12,7 @@ from ial.contractors.boxes import FloatArray
 from ial.datasets.scan import BeamClass, LaserScan, Mounting
 from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
 from ial.lidar.rays import Rays
+from ial.lidar.share import Share, number_of
 
 _ROUND_UP = 1.0 + 2.0**-40  # far above the rounding of the few operations that make a half-width
 
@@ -69,13 +70,13 @@ def scan_beams(scan: LaserScan, config: LocalizerConfig) -> Beams:
     beams = select_beams(scan, config.bounds.of(scan.frame_id), outliers, config.max_beams, config.free_space)
     if not automatic:
         return beams
-    margin, jump = (_number(share, len(beams)) for share in (config.outlier_margin, config.max_jump))
+    margin, jump = (number_of(share, len(beams)) for share in (config.outlier_margin, config.max_jump))
     # With as many outliers as beams a scan would say nothing; what it needs is always fewer.
     most = max(0, min(beams.outliers, len(beams) - 1))
     return dataclasses.replace(beams, outliers=most, margin=margin, jump=jump)
 
 
-def select_beams(scan: LaserScan, bounds: Bounds, outliers: int | float, max_beams: int, free_space: FreeSpace | None = None) -> Beams:
+def select_beams(scan: LaserScan, bounds: Bounds, outliers: Share, max_beams: int, free_space: FreeSpace | None = None) -> Beams:
     """Return the evidence of a scan: its hits, at most `max_beams` of them, spread evenly, and what it says about free space.
 
     The true reading lies in ``y ± range_error`` and the true bearing in ``β ± bearing_error``. Turning a reading of length Y by an angle of
@@ -107,7 +108,7 @@ def select_beams(scan: LaserScan, bounds: Bounds, outliers: int | float, max_bea
         margins = (free_space.margin_m + paths.blurs[rows]) * _ROUND_UP
         rays = Rays(paths.origins[rows], paths.angles[rows], paths.turns[rows], lengths * (1.0 - 2.0**-40), numbers, margins)
     beams = Beams(ends, directions, errors * _ROUND_UP, 0, rays)
-    return dataclasses.replace(beams, outliers=_number(outliers, len(beams)))
+    return dataclasses.replace(beams, outliers=number_of(outliers, len(beams)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,10 +172,6 @@ def _directions(
     angle = mounting.yaw + 0.5 * (lower + upper)
     turn = bearing_error + 0.5 * (upper - lower) + _angle_rounding(angle)
     return angle, turn, np.stack([np.cos(angle), np.sin(angle)], axis=1)
-
-
-def _number(share: int | float, beams: int) -> int:
-    return share if isinstance(share, int) else math.floor(share * beams)
 
 
 def _angle_rounding(angle: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -137,7 +138,8 @@ class BoundsSurvey:
         config = dataclasses.replace(self.config, bounds=wanted)
         if config.outliers == "auto":
             needed = float(np.quantile([shares[row] for shares in self._shares], _HELD))
-            most = math.ceil(100.0 * (needed + (config.outlier_margin if isinstance(config.outlier_margin, float) else 0.0))) / 100.0
+            margin = 0 if isinstance(config.outlier_margin, int) else Fraction(str(config.outlier_margin))
+            most = math.ceil(100 * (Fraction(str(needed)) + margin)) / 100
             config = dataclasses.replace(config, max_outliers=min(0.9, most))
         return config
 
