@@ -3,6 +3,7 @@
 import dataclasses
 import functools
 import math
+import operator
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,6 +48,10 @@ class Beams:
     rays: Rays | None = None
     margin: int | None = None
     jump: int | None = None
+
+    def __post_init__(self) -> None:
+        if operator.index(self.outliers) < 0:
+            raise ValueError(f"the number of beams that may be bad is {self.outliers}; give at least 0")
 
     def __len__(self) -> int:
         """Return how many beams are used, those without return counted whose rays are."""
