@@ -80,7 +80,7 @@ class Checkpoint:
         Raises
         ------
         RecordingError
-            If it is damaged, or belongs to another map or configuration.
+            If it is damaged, or belongs to another map, start or configuration.
         """
         try:
             with path.open("rb") as file, np.load(file, allow_pickle=False) as content:
@@ -93,7 +93,7 @@ class Checkpoint:
                     limited=about["limited"],
                     bad=content["bad"],
                     outliers=int(about["outliers"]),
-                )
+                ).checked()
             mark = Mark(int(about["index"]), int(about["stamp_ns"]), Odometry(**about["odometry"]))
             found = cls(mark, poses, int(about["written"]), str(about["fingerprint"]))
         except FileNotFoundError:
@@ -104,14 +104,16 @@ class Checkpoint:
             raise RecordingError(f"{path}: no state that ial has written, or a damaged one; remove it to begin anew") from None
         if found.fingerprint != fingerprint(localizer):
             raise RecordingError(
-                f"{path}: this state belongs to another map, configuration or version of ial; use those, or remove it to begin anew"
+                f"{path}: this state belongs to another map, configuration, start or version of ial; use those, or remove it to begin anew"
             )
         return found
 
 
 def fingerprint(localizer: Localizer) -> str:
-    """Return a text that differs where the map, the configuration, or the version of ial differs."""
-    grid = localizer.grid
+    """Return a text that differs where the map, the start, the configuration, or the version of ial differs."""
+    grid, start = localizer.grid, localizer.start.boxes
     digest = hashlib.sha256(grid.cells.data)
+    for bounds in (start.lower, start.upper):
+        digest.update(bounds.data)
     digest.update(repr((grid.cells.shape, grid.resolution, grid.origin, localizer.config, version("ial"))).encode())
     return digest.hexdigest()[:32]

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.paving.clusters import cluster
@@ -72,8 +71,9 @@ class Estimate:
         Time of the scan, nanoseconds.
     status
         `localized`: one hypothesis, not larger than the configured size. `lost`: this scan fitted nowhere in the prediction and was
-        searched over the whole map. `blind`: it fitted nowhere at all. `symmetric`: all hypotheses are images of each other under a
-        symmetry of the map. `ambiguous`: everything else.
+        searched over the whole map. `blind`: it fitted nowhere at all. `symmetric`: whatever pose of one hypothesis is consistent with
+        all data, so are its images in all others, under rotations that map the map onto itself; see `are_images`. `ambiguous`:
+        everything else.
     hypotheses
         The connected sets of poses, the largest volume first.
     pose
@@ -156,32 +156,6 @@ def radius(poses: PoseSet, pose: Pose, grid: OccupancyGrid) -> float:
     return float(np.hypot(x, y).max() * _FARTHER + 2.0**-46 * largest)
 
 
-def are_images(hypotheses: tuple[Hypothesis, ...], symmetries: tuple[Pose, ...], widths: npt.NDArray[np.float64]) -> bool:
-    """Return whether hypotheses are images of each other: those of the first under all symmetries of the map, and no others.
-
-    Parameters
-    ----------
-    hypotheses
-        Two or more.
-    symmetries
-        Of the map, in the map frame.
-    widths
-        Of a cell of the answer along x, y and θ. Cells do not map onto cells, so middles may differ by two of them.
-    """
-    if not 1 < len(hypotheses) <= 1 + len(symmetries):
-        return False
-    first = hypotheses[0].centre
-    images = [first, *(symmetry @ first for symmetry in symmetries)]
-    return all(sum(_near(image, each.centre, 2.0 * widths) for each in hypotheses) == 1 for image in images) and all(
-        any(_near(image, each.centre, 2.0 * widths) for image in images) for each in hypotheses
-    )
-
-
-def _near(one: Pose, other: Pose, most: npt.NDArray[np.float64]) -> bool:
-    difference = (one.x - other.x, one.y - other.y, wrap(one.theta - other.theta))
-    return bool((np.abs(difference) <= most).all())
-
-
 def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: bool, found: bool, symmetric: bool = False) -> Status:
     """Return the status word for a set of hypotheses.
 
@@ -196,7 +170,7 @@ def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: 
     found
         Whether it fitted anywhere.
     symmetric
-        Whether the hypotheses are images of each other under a symmetry of the map.
+        Whether the consistent poses of the hypotheses are images of each other; see `are_images`.
     """
     if rejected:
         return "lost" if found else "blind"
