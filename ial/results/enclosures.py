@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ial.contractors.intervals.angle import wrap_angle
 from ial.datasets.recording import Step
 from ial.datasets.stamps import parse_stamp
 from ial.lidar.estimate import Estimate, Hypothesis, Status
@@ -104,10 +103,7 @@ def hypothesis_record(hypothesis: Hypothesis) -> dict[str, Any]:
 
 
 def read_enclosures(path: str | Path) -> Iterator[Enclosure]:
-    """Yield the lines of an ``enclosures.jsonl``, with every number as it was written, to the last bit.
-
-    Headings that another program has given another turn get the form of those that ial writes.
-    """
+    """Yield the lines of an ``enclosures.jsonl``, with every number as it was written, to the last bit."""
     for line in read_lines(path):
         at = line["pose"]
         yield Enclosure(
@@ -127,6 +123,4 @@ def read_enclosures(path: str | Path) -> Iterator[Enclosure]:
 
 def _parsed(record: dict[str, Any]) -> Hypothesis:
     x, y, theta = ((float(record[name][0]), float(record[name][1])) for name in ("x", "y", "theta"))
-    return Hypothesis(
-        x, y, wrap_angle(*theta), record["boxes"], float(record["volume"]), record.get("prediction", False), record.get("spare_beams")
-    )
+    return Hypothesis(x, y, theta, record["boxes"], float(record["volume"]), record.get("prediction", False), record.get("spare_beams"))
