@@ -92,7 +92,8 @@ def _narrow(start, stop, order, lower, upper, ends, directions, errors, q, map_e
 class ScanContractor:
     """Poses (x, y, θ) of the robot, in the grid's frame, from which at most q of the used beams are bad.
 
-    A beam is good at a pose if some point of its error region lies within `map_error_m` of a closed occupied cell.
+    A beam is good at a pose if some point of its error region lies within `map_error_m` of a closed occupied cell. Beams without return are
+    among those that may be bad, and are taken to be good: with as many bad ones allowed as there are hits, a box is returned as it is.
 
     Parameters
     ----------
