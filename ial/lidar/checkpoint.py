@@ -19,7 +19,7 @@ from ial.errors import OutputError, RecordingError
 from ial.lidar.localizer import Localizer
 from ial.lidar.pose_set import PoseSet
 
-_FORM = "ial checkpoint 1"
+_FORM = "ial checkpoint 2"
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +61,7 @@ class Checkpoint:
             "fingerprint": self.fingerprint,
             "limited": poses.limited,
             "outliers": poses.outliers,
+            "accepted": poses.accepted,
         }
         content = io.BytesIO()
         text = np.frombuffer(json.dumps(about).encode(), dtype=np.uint8)
@@ -93,6 +94,7 @@ class Checkpoint:
                     limited=about["limited"],
                     bad=content["bad"],
                     outliers=int(about["outliers"]),
+                    accepted=None if about["accepted"] is None else int(about["accepted"]),
                 )
             mark = Mark(int(about["index"]), int(about["stamp_ns"]), Odometry(**about["odometry"]))
             found = cls(mark, poses, int(about["written"]), str(about["fingerprint"]))

@@ -83,7 +83,8 @@ class Estimate:
     beams
         How many beams were used.
     outliers_allowed
-        q: how many of them may be bad; with ``outliers: auto``, what the scan needed and the margin.
+        q: how many of them may be bad. All of the answer but predictions was cut at this number. With ``outliers: auto`` it is what the
+        scan needed and the margin; of a `blind` scan, the largest number with which it was searched for in vain.
     uninformative
         Whether the scan could exclude nothing: no usable beams, or as many allowed outliers.
     limited
@@ -132,6 +133,7 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True
     found = []
     for label, (start, stop) in enumerate(itertools.pairwise(edges)):
         rows = order[start:stop]
+        sure = rows[~poses.carried[rows]]
         hull = Boxes(in_map.lower[rows], in_map.upper[rows]).hull()
         found.append(
             Hypothesis(
@@ -140,8 +142,8 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True
                 theta=(float(theta.lower[label, 2]), float(theta.upper[label, 2])),
                 boxes=len(rows),
                 volume=float(volumes[rows].sum()),
-                prediction=bool(poses.carried[rows].all()),
-                spare_beams=poses.outliers - int(poses.bad[rows].min()) if counted and not poses.carried[rows].all() else None,
+                prediction=not len(sure),
+                spare_beams=poses.outliers - int(poses.bad[sure].min()) if counted and len(sure) else None,
             )
         )
     return tuple(sorted(found, key=lambda each: -each.volume))
