@@ -14,6 +14,7 @@ from ial.datasets.scan import BeamClass, LaserScan, Mounting
 from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
 from ial.lidar.rays import Rays
 from ial.lidar.share import Share, number_of
+from ial.lidar.sweep import sweep_boxes
 
 _ROUND_UP = 1.0 + 2.0**-40  # far above the rounding of the few operations that make a half-width
 
@@ -142,25 +143,22 @@ class _Paths:
 def _paths(scan: LaserScan, bounds: Bounds) -> _Paths:
     """Return the paths of all beams; where the robot moved during the scan, each is seen from where the robot was at that beam.
 
-    The motion up to a beam is taken as the beam's share of the whole, x, y and θ each; it may be wrong by that share of what the bounds
-    of motion say of such a motion, without their base.
+    `sweep_boxes` says where it was: each beam is seen from the middle of its box, and may be off by the rest of it.
     """
     angle, turn, units = _directions(len(scan), scan.angle_min, scan.angle_increment, scan.mounting, bounds.bearing_error_rad)
     laser = np.array([scan.mounting.x, scan.mounting.y])
-    sweep = scan.sweep
-    if sweep is None or len(scan) < 2:
+    if scan.sweep is None or len(scan) < 2:
         return _Paths(np.broadcast_to(laser, (len(scan), 2)), np.zeros(len(scan)), angle, turn, units)
-    share = np.arange(len(scan)) / (len(scan) - 1)
-    way, twist = math.hypot(sweep.x, sweep.y), abs(sweep.theta)
-    motion = bounds.motion
-    off_m, off_rad = (part.at(way, twist) - part.base for part in (motion.translation, motion.rotation))
-    turned = share * sweep.theta
-    c, s = np.cos(turned), np.sin(turned)
-    origins = np.stack([c * laser[0] - s * laser[1], s * laser[0] + c * laser[1]], axis=1) + share[:, None] * (sweep.x, sweep.y)
-    # Each coordinate may be off by `off_m`; and the laser, at the end of an arm, by the error of the heading.
-    blurs = share * (math.sqrt(2.0) * off_m + math.hypot(*laser) * off_rad) * _ROUND_UP
-    angle = angle + turned
-    turn = turn + share * off_rad * _ROUND_UP + _angle_rounding(angle)
+    boxes = sweep_boxes(scan.sweep, bounds.motion, len(scan))
+    middle = 0.5 * (boxes[:, :, 0] + boxes[:, :, 1])
+    off = np.maximum(boxes[:, :, 1] - middle, middle - boxes[:, :, 0]) * _ROUND_UP
+    off_rad = off[:, 2]
+    c, s = np.cos(middle[:, 2]), np.sin(middle[:, 2])
+    origins = np.stack([c * laser[0] - s * laser[1], s * laser[0] + c * laser[1]], axis=1) + middle[:, :2]
+    # Each coordinate may be off; and the laser, at the end of an arm, by the error of the heading.
+    blurs = (np.hypot(off[:, 0], off[:, 1]) + math.hypot(*laser) * off_rad) * _ROUND_UP
+    angle = angle + middle[:, 2]
+    turn = turn + off_rad + _angle_rounding(angle)
     return _Paths(origins, blurs, angle, turn, np.stack([np.cos(angle), np.sin(angle)], axis=1))
 
 
