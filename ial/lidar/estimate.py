@@ -17,8 +17,6 @@ from ial.pose import Pose, wrap
 if TYPE_CHECKING:
     from ial.lidar.global_check import GlobalCheck
 
-_FARTHER = 1.0 + 1e-9  # far above the rounding of a distance within a map
-
 Status = Literal["localized", "ambiguous", "symmetric", "lost", "blind"]
 
 
@@ -153,9 +151,9 @@ def radius(poses: PoseSet, pose: Pose, grid: OccupancyGrid) -> float:
     """Return a distance (m) from a pose in the map frame that no position of a set exceeds."""
     at = grid.pose_to_grid(pose)
     x, y = np.maximum(np.abs(poses.boxes.lower[:, :2] - (at.x, at.y)), np.abs(poses.boxes.upper[:, :2] - (at.x, at.y))).T
-    # The pose was rounded twice between the frames, by units in the last place of the largest number that occurs.
+    # The pose was rounded twice between the frames, and the distance once, by units in the last place of the largest number that occurs.
     largest = abs(pose.x) + abs(pose.y) + abs(grid.origin.x) + abs(grid.origin.y) + grid.width_m + grid.height_m
-    return float(np.hypot(x, y).max() * _FARTHER + 2.0**-46 * largest)
+    return float(np.hypot(x, y).max() + 2.0**-46 * largest)
 
 
 def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: bool, found: bool, symmetric: bool = False) -> Status:
