@@ -9,7 +9,6 @@ import numpy as np
 
 from ial.cli.terminal import progress
 from ial.contractors.boxes import Boxes
-from ial.contractors.intervals.angle import wrap_angle
 from ial.contractors.threads import get_threads
 from ial.datasets.opening import open_recording
 from ial.datasets.recording import Recording
@@ -170,9 +169,7 @@ class Job:
                 f"--initial {x:g} {y:g} {theta:g} --initial-radius {position:g} {heading:g} is no region; give finite numbers, and "
                 "radii that are not negative"
             )
-        box = Boxes.around([self.initial], [position, position, heading])
-        box.lower[0, 2], box.upper[0, 2] = wrap_angle(box.lower[0, 2], box.upper[0, 2])
-        return box
+        return Boxes.around([self.initial], [position, position, heading])
 
     def _options(self) -> dict[str, Any]:
         """Return what was asked for, under the names of the options, as plain values that JSON can hold."""

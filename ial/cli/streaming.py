@@ -114,7 +114,7 @@ class Streaming:
             localizer = Localizer(load_map(self.map_path, self.semantics, self.map_topic), config=self.config)
             checkpoint = None if self.state is None else Checkpoint.load(self.state, localizer)
             if checkpoint is not None:
-                localizer.resume(checkpoint.poses)
+                localizer.resume(checkpoint.poses, same_start=True)
             out = self._out(checkpoint)
             warm(self.config)
             mine = fingerprint(localizer)

@@ -63,6 +63,7 @@ class Checkpoint:
             "fingerprint": self.fingerprint,
             "limited": poses.limited,
             "outliers": poses.outliers,
+            "accepted": poses.accepted,
         }
         content = io.BytesIO()
         text = np.frombuffer(json.dumps(about).encode(), dtype=np.uint8)
@@ -76,7 +77,7 @@ class Checkpoint:
         Raises
         ------
         RecordingError
-            If it is damaged, or belongs to another map or configuration.
+            If it is damaged, or belongs to another map, start or configuration.
         """
         try:
             with path.open("rb") as file, np.load(file, allow_pickle=False) as content:
@@ -89,7 +90,8 @@ class Checkpoint:
                     limited=about["limited"],
                     bad=content["bad"],
                     outliers=int(about["outliers"]),
-                )
+                    accepted=None if about["accepted"] is None else int(about["accepted"]),
+                ).checked()
             mark = Mark(int(about["index"]), int(about["stamp_ns"]), Odometry(**about["odometry"]))
             output = None if about["output"] is None else OutputEnd(**about["output"])
             found = cls(mark, poses, output, str(about["fingerprint"]))
@@ -103,14 +105,16 @@ class Checkpoint:
             ) from None
         if found.fingerprint != fingerprint(localizer):
             raise RecordingError(
-                f"{path}: this state belongs to another map, configuration or version of ial; use those, or remove it to begin anew"
+                f"{path}: this state belongs to another map, configuration, start or version of ial; use those, or remove it to begin anew"
             )
         return found
 
 
 def fingerprint(localizer: Localizer) -> str:
-    """Return a text that differs where the map, the configuration, or the version of ial differs."""
-    grid = localizer.grid
+    """Return a text that differs where the map, the start, the configuration, or the version of ial differs."""
+    grid, start = localizer.grid, localizer.start.boxes
     digest = hashlib.sha256(grid.cells.data)
+    for bounds in (start.lower, start.upper):
+        digest.update(bounds.data)
     digest.update(repr((grid.cells.shape, grid.resolution, grid.origin, localizer.config, version("ial"))).encode())
     return digest.hexdigest()[:32]
