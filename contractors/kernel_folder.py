@@ -71,7 +71,7 @@ class KernelFolder:
         try:
             _replace(self.path / name, hashlib.sha256(content).digest() + content)
         except OSError as error:
-            self.stop(f"{error}; {_CHOSEN} may name another folder")
+            self.stop(f"{error.strerror}; {_CHOSEN} may name another folder")
 
     def stop(self, reason: str) -> None:
         """Keep nothing more in this process, and say so once."""
