@@ -5,7 +5,9 @@ import math
 
 import numpy as np
 
+from ial.contractors.angles import wrapped
 from ial.contractors.boxes import Boxes, FloatArray
+from ial.contractors.intervals.angle import wrap_angle
 from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.contractors.kernels import kernel
 from ial.lidar.tiles import IntArray, Tiles, filled_tiles, tiles_met
@@ -57,12 +59,13 @@ class Lattice:
         Parameters
         ----------
         boxes
-            What to cover.
+            What to cover; headings may have any turn, and empty boxes are left out.
         max_cells
             How many cells there may be.
         volume
             A volume that the union of the boxes does not fall below by much: levels too fine for it are not tried.
         """
+        boxes = wrapped(boxes, 2)
         boxes = boxes[~boxes.empty]
         if not len(boxes):
             return boxes
@@ -139,7 +142,7 @@ def _cell_ranges(lower, upper, step, edges, ranges):  # type: ignore[no-untyped-
                 last += 1
             ranges[row, 2 * axis] = first
             ranges[row, 2 * axis + 1] = last
-        start, stop = lower[row, 2], upper[row, 2]
+        start, stop = wrap_angle(lower[row, 2], upper[row, 2])
         first = min(max(int(math.floor((start + math.pi) / width)), 0), layers - 1)
         while first > 0 and edges[first] > start:
             first -= 1

@@ -229,9 +229,8 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         return replace(poses, boxes=cut[kept], carried=poses.carried[kept], bad=poses.bad[kept])
 
     def symmetries(self) -> tuple[Pose, ...]:
-        """Return the rotations of the map frame after which no scan can tell the difference."""
-        origin = self.grid.origin
-        return tuple(origin @ turn @ origin.inverse() for turn in symmetries(self.grid, self._allowed))
+        """Return the rotations of the grid's frame after which no scan can tell the difference."""
+        return symmetries(self.grid, self._allowed)
 
     def in_domain(self, pose: Pose) -> bool:
         """Return whether a position in the grid's frame lies in a cell of the domain."""
