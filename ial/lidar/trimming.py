@@ -114,27 +114,33 @@ def _reach(cell, outer, depth, evidence, q, grid, headings, stack, reached):  # 
 
 
 @kernel
-def _trim(start, stop, order, cells, outer, depth, evidence, q, tables, cut, kept):  # type: ignore[no-untyped-def]
+def _trim(start, stop, layers, cells, outer, wanted, depth, evidence, q, tables, headings, cut, kept):  # type: ignore[no-untyped-def]
+    """Cut the wanted cells of layers start … stop - 1, and write which of them hold a piece.
+
+    Parameters
+    ----------
+    layers
+        Which rows belong to each layer: order[edges[i]] … order[edges[i + 1] - 1].
+    headings
+        For each layer what `_reach` knows of its headings, from one call to the next.
+    """
     resolution, bordered, origin, domain = tables
     row_limit = np.int32(bordered.shape[0] - 1)
     column_limit = np.int32(bordered.shape[1] - 1 - 2 * BORDER)
     grid = (resolution, bordered.reshape(-1)[BORDER:], np.uint64(bordered.shape[1]), row_limit, column_limit, origin, domain)
-    lower, upper = cells
-    beams = len(evidence[0])
-    known = np.empty(2 << depth, dtype=np.bool_)
-    bounds = np.empty((2 << depth, beams, 4))
-    failing = np.arange(beams)
+    order, edges = layers
+    known, bounds = headings
+    failing = np.arange(len(evidence[0]))
     stack = np.empty((8 * (depth + 1), 4), dtype=np.int64)
     cell, reached = np.empty((2, 3)), np.empty((2, 3))
-    heading = np.nan
-    for at in range(start, stop):
-        row = order[at]
-        if lower[row, 2] != heading:
-            heading = lower[row, 2]
-            known[:] = False
-        cell[0, :], cell[1, :] = lower[row], upper[row]
-        kept[row] = _reach(cell, outer[row], depth, evidence, q, grid, (known, bounds, failing), stack, reached)
-        cut[0][row], cut[1][row] = reached[0], reached[1]
+    for layer in range(start, stop):
+        for at in range(edges[layer], edges[layer + 1]):
+            row = order[at]
+            if wanted[row]:
+                cell[0, :], cell[1, :] = cells[0][row], cells[1][row]
+                of_layer = (known[layer], bounds[layer], failing)
+                kept[row] = _reach(cell, outer[row], depth, evidence, q, grid, of_layer, stack, reached)
+                cut[0][row], cut[1][row] = reached[0], reached[1]
 
 
 def trim(
@@ -161,23 +167,27 @@ def trim(
         How often cells are halved along each axis.
     """
     lower, upper, kept = cells.lower.copy(), cells.upper.copy(), np.ones(len(cells), dtype=np.bool_)
-    outer = np.zeros((len(cells), 2, 3), dtype=np.bool_)
+    order = group_rows(lower[:, 2], upper[:, 2])
+    edges = np.flatnonzero(np.concatenate([[True], np.diff(lower[order, 2]) != 0.0, [True]]))
     evidence = (beams.ends, beams.directions, beams.errors, map_error_m)
-    by_heading = group_rows(lower[:, 2], upper[:, 2])
+    headings = (np.zeros((len(edges) - 1, 2 << depth), dtype=np.bool_), np.empty((len(edges) - 1, 2 << depth, len(beams.ends), 4)))
+    outer = np.zeros((len(cells), 2, 3), dtype=np.bool_)
+    places = [(key, rows) for key, rows, _ in sheets.parts(cells)]
     while kept.any():
-        before = outer.copy()
-        outer[kept] = outer_faces(cells[kept], lattice)
-        uncovered = kept & (outer != before).any(axis=(1, 2))
+        faces = outer.copy()
+        faces[kept] = outer_faces(cells[kept], lattice)
+        uncovered = (faces != outer).any(axis=(1, 2))
         if not uncovered.any():
             _mend(cells, lattice, lower, upper, kept)
             break
-        rows = by_heading[uncovered[by_heading]]
-        for key, among, _ in sheets.parts(cells[rows]):
+        outer = faces
+        for key, rows in places:
+            wanted = np.zeros(len(cells), dtype=np.bool_)
+            wanted[rows] = uncovered[rows]
             occupied, domain = sheets[key].occupied, sheets[key].domain
             tables = (occupied.resolution, occupied.bordered, occupied.origin, (domain.table, domain.origin, domain.inverse_resolution))
-            order = rows[among]
-            bounds = ((cells.lower, cells.upper), outer, depth, evidence, beams.outliers, tables, (lower, upper), kept)
-            run(_trim, len(order), order, *bounds, minimum=32)
+            bounds = (cells.lower, cells.upper), outer, wanted, depth, evidence, beams.outliers, tables, headings, (lower, upper), kept
+            run(_trim, len(edges) - 1, (order, edges), *bounds, minimum=4)
     return Boxes(lower, upper), kept
 
 
