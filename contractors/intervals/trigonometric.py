@@ -99,9 +99,10 @@ def sincos(x):  # type: ignore[no-untyped-def]
 @kernel
 def _between(start, stop, lower, upper, phase):  # type: ignore[no-untyped-def]
     """Return the range of a wave from its values at both bounds; it is (-1)^k at (k + phase)·π."""
-    margin = (abs(lower) + abs(upper) + 4.0) * 1e-15  # several times what the next two lines round off; too much only widens
-    first = np.ceil(lower * _HALVES_PER_RADIAN - phase - margin)
-    last = np.floor(upper * _HALVES_PER_RADIAN - phase + margin)
+    # Rounding may miss an extremum that lies within 1e-10 of a bound. At that bound the wave is nearer to ±1 than its double can tell, and
+    # the steps outward reach ±1.
+    first = np.ceil(lower * _HALVES_PER_RADIAN - phase)
+    last = np.floor(upper * _HALVES_PER_RADIAN - phase)
     low = min(start, stop)
     high = max(start, stop)
     # A value of exactly 0 is the sine of exactly 0.
