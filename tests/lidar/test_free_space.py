@@ -18,6 +18,8 @@ from ial.maps.occupancy_grid import FREE, OCCUPIED
 from ial.maps.ray_casting import cast_rays
 from ial.pose import Pose
 from ial.study.good_beams import bad_beams
+from ial.study.obstacles import Obstacles
+from ial.study.used_beams import UsedBeams
 
 NO_LASER_OFFSET = (0.0, 0.0, 0.0, 0.0)
 
@@ -147,11 +149,13 @@ def test_a_scan_of_beams_without_return_alone_keeps_every_consistent_pose(outlie
     beams = scan_beams(scan, config)
     assert (len(beams), len(beams.ends), estimate.beams) == (30, 0, 30)
     assert estimate.status == "ambiguous"
+    used, obstacles = UsedBeams.of(scan, config), Obstacles(grid)
     random, kept, excluded = np.random.default_rng(0), 0, 0
     while kept < 200:
         pose = Pose(*random.uniform(0.0, (8.0, 6.0, 6.2)).tolist())
         if grid.cells[int(pose.y / 0.1), int(pose.x / 0.1)] == FREE:
-            consistent = bad_beams(beams, pose, grid, 0.0) <= estimate.outliers_allowed
+            (bad,) = bad_beams(used, np.array([[pose.x, pose.y, pose.theta]]), obstacles)
+            consistent = bad <= estimate.outliers_allowed
             kept += consistent
             excluded += not estimate.poses.contains(pose)
             assert estimate.poses.contains(pose) or not consistent
