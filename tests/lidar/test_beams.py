@@ -10,7 +10,7 @@ from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.scan import LaserScan, Mounting
 from ial.lidar.beams import Beams, scan_beams, select_beams
-from ial.lidar.config import Bounds, LocalizerConfig
+from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
 from ial.pose import Pose
 
 mpmath.mp.prec = 200
