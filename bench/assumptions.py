@@ -21,6 +21,7 @@ from ial.datasets.walk import random_walk
 from ial.lidar.config import LocalizerConfig
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
+from ial.lidar.share import number_of
 from ial.maps.floor_plan import floor_plan
 from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.pose import Pose
@@ -70,7 +71,7 @@ def run_of(case: Case, seed: int, scans: int) -> tuple[OccupancyGrid, Simulation
     """Simulate one run; return the map that the localizer is given, and the run."""
     world = floor_plan(15.0, 12.0, 0.05, seed)
     path = random_walk(world, scans, seed, step_m=0.3, turn_rad=0.3)
-    errors = SensorErrors(0.03, 0.005, math.floor(case.outliers * BEAMS), adversarial=case.outliers > 0.05)
+    errors = SensorErrors(0.03, 0.005, number_of(case.outliers, BEAMS), adversarial=case.outliers > 0.05)
     run = simulate(world, path, LIDAR, errors, MOTION, seed)
     if case.drift:
         run = replace(run, recording=drifting(run.recording, case.drift))

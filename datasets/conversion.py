@@ -13,6 +13,7 @@ from ial.datasets.scan import Mounting
 from ial.datasets.scan_stream import odometry_line, scan_line
 from ial.datasets.tf_buffer import ODOM_FRAME
 from ial.errors import OutputError
+from ial.whole_file import whole_files
 
 if TYPE_CHECKING:
     from ial.datasets.bag_writer import BagWriter
@@ -93,16 +94,8 @@ def convert_to_lines(recording: Recording, target: Path | IO[str]) -> int:
             count += 1
         target.writelines(f"{odometry_line(*message)}\n" for message in messages.rest())
         return count
-    temporary = target.with_name(f".{target.name}.part")
-    try:
-        with temporary.open("w", encoding="utf-8") as file:
-            count = convert_to_lines(recording, file)
-        temporary.replace(target)
-    except OSError as error:
-        raise OutputError(f"{target}: cannot be written ({error.strerror or error}); choose another folder") from None
-    finally:
-        temporary.unlink(missing_ok=True)
-    return count
+    with whole_files(target) as (lent,), lent.open("w", encoding="utf-8") as file:
+        return convert_to_lines(recording, file)
 
 
 class _Messages:

@@ -15,14 +15,16 @@ def _number(value: Any) -> Any:
     return value
 
 
-def _outliers(value: Any) -> int | float | Literal["auto"]:
+def _outliers(value: Any) -> int | float | str:
     """Return the same as `_share`, or the word auto."""
     return "auto" if value == "auto" else _share(value)
 
 
-def _share(value: Any) -> int | float:
-    """Keep the difference between 1, one beam, and 1.0, all of them."""
+def _share(value: Any) -> int | float | str:
+    """Keep the difference between 1, one beam, and 1.0 or 1/1, all of them."""
     text = value.strip() if isinstance(value, str) else value
+    if isinstance(text, str) and "/" in text:
+        return text
     try:
         number = int(text) if isinstance(text, str) and text.isdigit() else float(text) if isinstance(text, str) else text
     except ValueError:
@@ -34,7 +36,7 @@ def _share(value: Any) -> int | float:
 
 Bound = Annotated[float, BeforeValidator(_number), Field(ge=0.0, allow_inf_nan=False)]
 Size = Annotated[float, BeforeValidator(_number), Field(gt=0.0, allow_inf_nan=False)]
-Share = Annotated[int | float, PlainValidator(_share)]
+Share = Annotated[int | float | str, PlainValidator(_share)]
 Count = Annotated[int, BeforeValidator(_number), Field(ge=1)]
 
 
@@ -99,7 +101,7 @@ class ConfigKeys(_Keys):
     map_error_m: Bound = Field(description="how far an obstacle may be from its occupied cells, m")
     motion: MotionKeys = Field(description="bounds of the odometry")
     lidars: dict[str, LidarKeys] = Field(description="other errors of single lidars, by the frame of their scans")
-    outliers: Annotated[int | float | Literal["auto"], PlainValidator(_outliers)] = Field(
+    outliers: Annotated[int | float | str, PlainValidator(_outliers)] = Field(
         description="how many beams may be bad: a number, a fraction, or auto"
     )
     outlier_margin: Share = Field(description="with auto: how many more than needed, a number or a fraction")

@@ -2,22 +2,23 @@
 
 import dataclasses
 import math
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ial.contractors.boxes import FloatArray
 from ial.datasets.recording import Step
-from ial.lidar.beams import Beams, scan_beams
 from ial.lidar.config import LocalizerConfig
-from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
+from ial.maps.occupancy_grid import OccupancyGrid
 from ial.maps.ray_casting import cast_rays
 from ial.pose import Pose, wrap
 from ial.study.blocked_rays import blocked_rays
 from ial.study.failures import Failures
 from ial.study.good_beams import good_beams
 from ial.study.motion_fit import RecordedStep, fitted
+from ial.study.obstacles import Obstacles
+from ial.study.used_beams import UsedBeams, in_grid
 
 TOTALS_M = (0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3)
 """Sums of range error and map error that are tried."""
@@ -27,7 +28,6 @@ OUTLIERS = (0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3)
 
 QUANTILES = (0.5, 0.9, 0.95, 0.98, 0.99)
 
-_NEIGHBOURS = 4  # the nearest cell is among the four whose centres are nearest
 _TYPICAL_OUTLIERS, _TYPICAL_SCANS = 0.1, 0.95  # the suggested bound leaves at most so many beams bad in so many scans
 _HELD = 0.99  # of scans and steps, by what is suggested
 
@@ -47,9 +47,7 @@ class BoundsSurvey:
         self.grid = grid
         self.config = config
         self.failures = Failures(grid)
-        mask = grid.mask(OCCUPIED)
-        self._mask = mask
-        self._tree = cKDTree((np.argwhere(mask)[:, ::-1] + 0.5) * grid.resolution)
+        self._obstacles = Obstacles(grid)
         self._bad: list[float] = []
         self._shares: list[FloatArray] = []
         self._distances: list[FloatArray] = []
@@ -62,41 +60,32 @@ class BoundsSurvey:
     def add(self, step: Step, pose: Pose | None) -> None:
         """Take a scan and ``T_map_base`` of a reference; None where there is none."""
         if pose is not None:
-            self._add_beams(scan_beams(step.scan, self.config), self.grid.pose_to_grid(pose))
+            at = self.grid.pose_to_grid(pose)
+            self._add_beams(UsedBeams.of(step.scan, self.config), np.array([[at.x, at.y, at.theta]]))
             if self._previous is not None and step.motion is not None:
                 self._add_motion(step, self._previous.inverse() @ pose)
         self._previous = pose
 
-    def _add_beams(self, beams: Beams, pose: Pose) -> None:
-        if not len(beams.ends):
+    def _add_beams(self, beams: UsedBeams, pose: FloatArray) -> None:
+        hits = len(beams.readings)
+        if not hits:
             return
-        turn = np.array([[math.cos(pose.theta), -math.sin(pose.theta)], [math.sin(pose.theta), math.cos(pose.theta)]])
-        ends = beams.ends @ turn.T + (pose.x, pose.y)
-        distance = self._distance(ends)
+        ends = in_grid(pose, beams.ends[None], np.zeros((1, hits)))[0][0]
+        distance = self._obstacles.distances(ends)
         self._distances.append(distance.astype(np.float32))
         self._shares.append(np.array([np.mean(distance > total) for total in TOTALS_M]))
-        bad = ~good_beams(beams, pose, self.grid, self.config.bounds.map_error_m)
+        bad = np.zeros(len(beams), dtype=np.bool_)
+        bad[:hits] = ~good_beams(beams, pose, self._obstacles)[0]
         failures = self.failures
-        failures.count(failures.ended, ends[bad])
-        if beams.rays is not None:
-            blocked = blocked_rays(beams.rays, pose, self.grid)
-            numbers = beams.rays.beams[blocked]
-            laser = beams.rays.origins[blocked] @ turn.T + (pose.x, pose.y)
-            angles = pose.theta + beams.rays.angles[blocked]
-            met = cast_rays(self._mask, self.grid.resolution, laser[:, 0], laser[:, 1], angles)
-            along = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-            failures.count(failures.passed, (laser + met[:, None] * along)[np.isfinite(met)])
-            bad[numbers[numbers >= 0]] = True
-        failures.count(failures.good, ends[~bad])
+        failures.count(failures.ended, ends[bad[:hits]])
+        blocked = beams.rays[blocked_rays(beams, pose, self._obstacles)[0]]
+        laser, angles = (each[0, blocked] for each in in_grid(pose, *(each[None] for each in beams.middle)))
+        met = cast_rays(self._obstacles.mask, self.grid.resolution, laser[:, 0], laser[:, 1], angles)
+        along = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        failures.count(failures.passed, (laser + met[:, None] * along)[np.isfinite(met)])
+        bad[blocked] = True
+        failures.count(failures.good, ends[~bad[:hits]])
         self._bad.append(float(bad.mean()))
-
-    def _distance(self, points: FloatArray) -> FloatArray:
-        """Return how far points, in the grid's frame, are from the nearest closed occupied cell."""
-        count = min(_NEIGHBOURS, self._tree.n)
-        _, near = self._tree.query(points, k=count)
-        centres = self._tree.data[near.reshape(len(points), count)]
-        aside = np.maximum(np.abs(points[:, None, :] - centres) - 0.5 * self.grid.resolution, 0.0)
-        return np.asarray(np.hypot(aside[..., 0], aside[..., 1]).min(axis=1))
 
     def _add_motion(self, step: Step, true: Pose) -> None:
         assert step.motion is not None
@@ -133,7 +122,8 @@ class BoundsSurvey:
         config = dataclasses.replace(self.config, bounds=wanted)
         if config.outliers == "auto":
             needed = float(np.quantile([shares[row] for shares in self._shares], _HELD))
-            most = math.ceil(100.0 * (needed + (config.outlier_margin if isinstance(config.outlier_margin, float) else 0.0))) / 100.0
+            margin = 0 if isinstance(config.outlier_margin, int) else Fraction(str(config.outlier_margin))
+            most = math.ceil(100 * (Fraction(str(needed)) + margin)) / 100
             config = dataclasses.replace(config, max_outliers=min(0.9, most))
         return config
 
