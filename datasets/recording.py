@@ -5,6 +5,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Protocol
 
+import numpy as np
+
 from ial.datasets.info import RecordingInfo
 from ial.datasets.motion import Motion, MotionBounds
 from ial.datasets.odometry import Odometry
@@ -116,7 +118,14 @@ class Mark:
 
 
 def steps(
-    recording: Recording, bounds: MotionBounds, start: int = 0, stop: int | None = None, every: int = 1, after: Mark | None = None
+    recording: Recording,
+    bounds: MotionBounds,
+    start: int = 0,
+    stop: int | None = None,
+    every: int = 1,
+    after: Mark | None = None,
+    *,
+    no_return: bool = False,
 ) -> Iterator[Step]:
     """Yield the scans start, start + every, … below stop, each with the motion since the one yielded before.
 
@@ -133,6 +142,8 @@ def steps(
     after
         Go on behind this scan: those up to its stamp are passed over. Where the recording does not hold it (a live one, which went on in
         the meantime), scans are counted on from its number.
+    no_return
+        Whether beams without return are usable, as hits are.
 
     Raises
     ------
@@ -144,6 +155,7 @@ def steps(
     previous = None if after is None else after.odometry
     motion: Motion | None = None
     yielded, usable = 0, after is not None
+    used = (BeamClass.HIT, BeamClass.NO_RETURN) if no_return else (BeamClass.HIT,)
     for reading in _behind(recording, after):
         if stop is not None and reading.index >= stop:
             break
@@ -153,7 +165,7 @@ def steps(
         previous = reading.odometry
         if reading.index < start or (reading.index - start) % every:
             continue
-        usable = usable or bool((reading.scan.classes() == BeamClass.HIT).any())
+        usable = usable or bool(np.isin(reading.scan.classes(), used).any())
         yield Step(reading.index, reading.stamp_ns, motion, reading.swept, reading.odometry)
         yielded += 1
         motion = None

@@ -95,6 +95,11 @@ class FreeSpace:
     max_rays: int = 60
     no_return_m: float = 0.0
 
+    @property
+    def no_return(self) -> bool:
+        """Whether beams without return are used."""
+        return self.use and self.no_return_m > 0.0
+
     def __post_init__(self) -> None:
         _check("free_space.margin_m", self.margin_m)
         _check("free_space.no_return_m", self.no_return_m)
