@@ -188,7 +188,8 @@ class LocalizerConfig:
         What follows a scan that fits nowhere in the prediction: `union` carries the prediction on beside the poses found on the whole map,
         and keeps the truth whichever of the last motion and the last scan broke its bound; `restart` (the paper's) trusts the scan alone.
     max_seconds
-        A limit on the time of one scan; None for none. An answer that reaches it is coarser, marked, and not reproducible.
+        A limit on the time of one scan; None for none. An answer that reaches it is coarser, marked, and not reproducible, nor need be
+        those of the scans behind it.
     """
 
     bounds: Bounds = field(default_factory=Bounds)
