@@ -1,5 +1,6 @@
 """Simulated runs in which the assumptions hold, and in which they are broken on purpose: what the localizer then says."""
 
+import dataclasses
 import itertools
 import math
 import statistics
@@ -40,7 +41,7 @@ DEFAULT = LocalizerConfig()
 
 
 def _halved(bound: ErrorBound, factor: float = 0.5) -> ErrorBound:
-    return ErrorBound(factor * bound.base, factor * bound.per_metre, factor * bound.per_radian)
+    return ErrorBound(*(factor * part for part in dataclasses.astuple(bound)))
 
 
 MOTION = MotionBounds(_halved(DEFAULT.bounds.motion.translation), _halved(DEFAULT.bounds.motion.rotation))
@@ -84,7 +85,8 @@ def drifting(recording: InMemoryRecording, factor: float) -> InMemoryRecording:
     moved = [readings[0]]
     for before, reading in itertools.pairwise(readings):
         step = before.odometry.pose.inverse() @ reading.odometry.pose
-        bound = DEFAULT.bounds.motion.rotation.at(math.hypot(step.x, step.y), abs(step.theta))
+        room = DEFAULT.bounds.motion.enclose(step, 1e-9 * (reading.stamp_ns - before.stamp_ns))
+        bound = 0.5 * float(room.upper[2] - room.lower[2])
         at = at @ Pose(step.x, step.y, step.theta + factor * bound)
         moved.append(replace(reading, odometry=Odometry.of(at)))
     return InMemoryRecording(recording.name, moved)

@@ -45,19 +45,21 @@ class _Keys(BaseModel):
 
 
 class ErrorBoundKeys(_Keys):
-    """``base + per_metre · |translation| + per_radian · |rotation|`` of one recorded odometry step."""
+    """What a recorded motion may be wrong by, for each message of the odometry and once for each scan; 0 where a key is left out."""
 
-    base: Bound = Field(description="m for a translation, rad for a rotation")
-    per_metre: Bound = Field(description="added for each metre travelled: m/m or rad/m")
-    per_radian: Bound = Field(description="added for each radian turned: m/rad or rad/rad")
+    per_message: Bound = Field(0.0, description="added for each odometry message: m or rad")
+    per_metre: Bound = Field(0.0, description="added for each metre travelled: m/m or rad/m")
+    per_radian: Bound = Field(0.0, description="added for each radian turned: m/rad or rad/rad")
+    per_second: Bound = Field(0.0, description="added for each second: m/s or rad/s")
+    per_scan: Bound = Field(0.0, description="added once for each scan: m or rad")
 
 
 class MotionKeys(_Keys):
-    """How far one recorded odometry step may be from the truth."""
+    """How far recorded odometry may be from the truth."""
 
     translation: ErrorBoundKeys = Field(description="dx, and dy, m")
     rotation: ErrorBoundKeys = Field(description="dθ, rad")
-    sideways: ErrorBoundKeys | None = Field(description="dy alone, m, with all three keys; null: as translation")
+    sideways: ErrorBoundKeys | None = Field(description="dy alone, m; null: as translation")
 
 
 class LidarKeys(_Keys):

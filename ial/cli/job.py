@@ -1,6 +1,5 @@
 """`Job`: what `ial localize` was asked to do, and the doing of it."""
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -34,6 +33,9 @@ from ial.results.trajectory import TrajectoryFile
 from ial.study.containment import Containment
 from ial.study.reference import TruthFrame
 
+FILES = ("summary.json", "config.yaml", "enclosures.jsonl", "events.jsonl", "picture.png", "result.mcap", "trajectory.tum")
+"""What a run writes, its record first."""
+
 
 @dataclass(frozen=True)
 class Inputs:
@@ -57,6 +59,11 @@ class Inputs:
     semantics: Semantics = "nav2"
     map_topic: str | None = None
 
+    @property
+    def paths(self) -> tuple[Path, Path]:
+        """Where the recording and the map are."""
+        return self.recording or sample_recording_path(), self.map_path or sample_map_path()
+
     def open(self) -> tuple[Recording, OccupancyGrid]:
         """Open the recording and read the map.
 
@@ -65,8 +72,9 @@ class Inputs:
         RecordingError, MapError
             If one of them cannot be read.
         """
-        recording = open_recording(self.recording or sample_recording_path(), self.scan_topics, self.odom_topic, self.laser_pose)
-        return recording, load_map(self.map_path or sample_map_path(), self.semantics, self.map_topic)
+        path, map_path = self.paths
+        recording = open_recording(path, self.scan_topics, self.odom_topic, self.laser_pose)
+        return recording, load_map(map_path, self.semantics, self.map_topic)
 
 
 @dataclass(frozen=True)
@@ -125,9 +133,8 @@ class Job:
                 if containment is not None:
                     containment.add(step, estimate)
             folder.close()
-            record = summary.as_dict(_measures(containment))
             folder.write("config.yaml", config_yaml(self.config))
-            folder.write("summary.json", json.dumps(record, indent=2, allow_nan=False, ensure_ascii=False) + "\n")
+            record = folder.conclude("summary.json", summary.as_dict(_measures(containment)))
         return summary, record
 
     def _attach_sinks(self, folder: ResultFolder, recording: Recording, grid: OccupancyGrid, containment: Containment | None) -> None:

@@ -52,7 +52,8 @@ def test_between_messages_the_pose_is_linear_and_its_error_known() -> None:
     assert found is not None
     assert (found.x, found.y) == pytest.approx((1.25, 1.0))
     assert found.pose.theta == pytest.approx(3.0 + 0.25 * (2.0 * math.pi - 6.0))
-    assert found.error_m == pytest.approx(0.75)
+    turn = 2.0 * math.pi - 6.0
+    assert found.error_m == pytest.approx(0.75 + 0.16 * 1.0 * turn)  # an arc between the two leaves their box
     assert found.error_rad == pytest.approx(0.75 * (2.0 * math.pi - 6.0))
 
 
@@ -68,7 +69,7 @@ def test_the_error_covers_the_box_of_the_neighbours(corners: tuple[float, ...], 
 def test_errors_of_the_messages_add_up() -> None:
     found = OdometryBuffer([(0, Odometry(0.0, 0.0, error_m=0.5, error_rad=0.2)), (100, Odometry(0.0, 0.0))]).at(50)
     assert found is not None
-    assert (found.error_m, found.error_rad) == pytest.approx((0.5, 0.2))
+    assert (found.error_m, found.error_rad) == pytest.approx((0.5 + 0.16 * math.sqrt(0.5) * 0.2, 0.2))
 
 
 def test_there_is_no_odometry_outside_or_in_a_gap() -> None:

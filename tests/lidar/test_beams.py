@@ -1,4 +1,5 @@
 import math
+from fractions import Fraction
 from typing import Any
 
 import mpmath
@@ -145,3 +146,20 @@ def test_without_deskewing_the_motion_during_a_scan_is_ignored() -> None:
     config = LocalizerConfig()
     assert np.array_equal(scan_beams(moving, config).ends, scan_beams(plain, config).ends)
     assert not np.array_equal(scan_beams(moving, LocalizerConfig(deskew=True)).ends, scan_beams(plain, config).ends)
+
+
+def test_a_ray_is_shorter_than_any_way_to_what_a_good_beam_may_have_met() -> None:
+    """Exactly: the reading, less its rounding, less its error, less the margin; in the tests of whole scenes the margin hides the error."""
+    random = np.random.default_rng(0)
+    for range_error, margin in ((0.0, 0.02), (0.4, 0.02), (0.4, 0.0), (0.1, 0.3), (1.0 / 3.0, 0.1), (0.7, 0.7)):
+        far = random.uniform(2.0, 30.0, 200).astype(np.float32)
+        far[::5] = np.inf
+        recorded = scan(far, range_max=40.0)
+        rays = select_beams(recorded, Bounds(range_error), 0, 500, FreeSpace(True, margin, 500, 35.3)).rays
+        assert rays is not None
+        readings = [(float(each), True) for each in far[np.isfinite(far)]] + [(35.3, False)] * int(np.isinf(far).sum())
+        for (reading, rounded), length, aside in zip(readings, rays.lengths.tolist(), rays.margins.tolist(), strict=True):
+            least = (Fraction(reading) + Fraction(float(np.nextafter(np.float32(reading), np.float32(0))))) / 2 if rounded else reading
+            most = Fraction(least) - Fraction(range_error) - Fraction(margin)
+            assert most - Fraction(1, 10**5) <= Fraction(length) <= most
+            assert Fraction(margin) <= Fraction(aside) <= Fraction(margin) + Fraction(1, 10**9)
