@@ -18,6 +18,8 @@ from ial.maps.occupancy_grid import FREE, OCCUPIED
 from ial.maps.ray_casting import cast_rays
 from ial.pose import Pose
 from ial.study.good_beams import bad_beams
+from ial.study.obstacles import Obstacles
+from ial.study.used_beams import UsedBeams
 
 NO_LASER_OFFSET = (0.0, 0.0, 0.0, 0.0)
 
@@ -147,39 +149,10 @@ def test_a_scan_of_beams_without_return_alone_keeps_every_consistent_pose(outlie
     beams = scan_beams(scan, config)
     assert (len(beams), len(beams.ends), estimate.beams) == (30, 0, 30)
     assert estimate.status == "ambiguous"
-    random, kept, excluded = np.random.default_rng(0), 0, 0
-    while kept < 200:
-        pose = Pose(*random.uniform(0.0, (8.0, 6.0, 6.2)).tolist())
-        if grid.cells[int(pose.y / 0.1), int(pose.x / 0.1)] == FREE:
-            consistent = bad_beams(beams, pose, grid, 0.0) <= estimate.outliers_allowed
-            kept += consistent
-            excluded += not estimate.poses.contains(pose)
-            assert estimate.poses.contains(pose) or not consistent
-    assert excluded > 20 or outliers == 29
-
-
-@pytest.mark.parametrize(
-    ("bearing", "range_error", "margin", "reading", "count"),
-    [
-        (0.0, 0.4, 0.02, 3.35, 0),  # a good beam: it may have met the face of the wall
-        (0.0, 0.4, 0.02, 3.6, 1),
-        (0.0, 0.1, 0.3, 3.35, 0),
-        (0.0, 0.1, 0.3, 3.9, 1),
-        (0.785, 0.1, 0.5, 5.25, 0),  # the ray meets the wall in time, and the last one beside it does not
-        (0.785, 0.1, 0.5, 6.0, 1),
-        (-0.5, 0.4, 0.5, 4.55, 0),
-        (-0.5, 0.4, 0.5, 5.2, 1),
-    ],
-)
-def test_a_ray_ends_before_the_wall_by_the_error_and_by_the_margin(
-    bearing: float, range_error: float, margin: float, reading: float, count: int
-) -> None:
-    """A wall that begins 3 m ahead and has no end: the ray beside that meets it last tells, by the definition."""
-    assert count == ((3.0 + margin * math.sin(abs(bearing))) / math.cos(bearing) <= reading - range_error - margin)
-    wall = np.zeros((240, 200), dtype=np.bool_)
-    wall[:, 100:] = True
-    scan = LaserScan(0, np.array([reading], np.float32), bearing, 0.1)
-    beams = select_beams(scan, Bounds(range_error, 0.0, 0.0), 0, 180, FreeSpace(True, margin))
-    box = Boxes.of([(2.0, 2.0), (6.0, 6.0), (0.0, 1e-9)])
-    found = count_blocked(box, np.zeros(1, np.int16), beams, 2, CellIndex(wall, 0.05), BitColumns(wall), 0.0)
-    assert found.tolist() == [count]
+    poses = np.random.default_rng(0).uniform(0.0, (8.0, 6.0, 6.2), (600, 3))
+    poses = poses[grid.cells[tuple((poses[:, 1::-1] / 0.1).astype(int).T)] == FREE]
+    consistent = bad_beams(UsedBeams.of(scan, config), poses, Obstacles(grid)) <= estimate.outliers_allowed
+    contained = np.array([estimate.poses.contains(Pose(*pose)) for pose in poses.tolist()])
+    assert consistent.sum() > 100
+    assert contained[consistent].all()
+    assert outliers == 29 or (~contained).sum() > 20
