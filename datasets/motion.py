@@ -140,8 +140,8 @@ class MotionBounds:
         omnidirectional drive. It must cover what a turn between two messages does to dy.
     """
 
-    translation: ErrorBound = field(default_factory=lambda: ErrorBound(0.0, 0.12, 0.12, 0.0, 0.12))
-    rotation: ErrorBound = field(default_factory=lambda: ErrorBound(0.0, 0.15, 0.25, 0.0, 0.08))
+    translation: ErrorBound = field(default_factory=lambda: ErrorBound(0.0, 0.05, 0.05, 0.01, 0.12))
+    rotation: ErrorBound = field(default_factory=lambda: ErrorBound(0.0, 0.05, 0.25, 0.01, 0.09))
     sideways: ErrorBound | None = None
 
     @cached_property

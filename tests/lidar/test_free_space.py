@@ -156,3 +156,30 @@ def test_a_scan_of_beams_without_return_alone_keeps_every_consistent_pose(outlie
     assert consistent.sum() > 100
     assert contained[consistent].all()
     assert outliers == 29 or (~contained).sum() > 20
+
+
+@pytest.mark.parametrize(
+    ("bearing", "range_error", "margin", "reading", "count"),
+    [
+        (0.0, 0.4, 0.02, 3.35, 0),  # a good beam: it may have met the face of the wall
+        (0.0, 0.4, 0.02, 3.6, 1),
+        (0.0, 0.1, 0.3, 3.35, 0),
+        (0.0, 0.1, 0.3, 3.9, 1),
+        (0.785, 0.1, 0.5, 5.25, 0),  # the ray meets the wall in time, and the last one beside it does not
+        (0.785, 0.1, 0.5, 6.0, 1),
+        (-0.5, 0.4, 0.5, 4.55, 0),
+        (-0.5, 0.4, 0.5, 5.2, 1),
+    ],
+)
+def test_a_ray_ends_before_the_wall_by_the_error_and_by_the_margin(
+    bearing: float, range_error: float, margin: float, reading: float, count: int
+) -> None:
+    """A wall that begins 3 m ahead and has no end: the ray beside that meets it last tells, by the definition."""
+    assert count == ((3.0 + margin * math.sin(abs(bearing))) / math.cos(bearing) <= reading - range_error - margin)
+    wall = np.zeros((240, 200), dtype=np.bool_)
+    wall[:, 100:] = True
+    scan = LaserScan(0, np.array([reading], np.float32), bearing, 0.1)
+    beams = select_beams(scan, Bounds(range_error, 0.0, 0.0), 0, 180, FreeSpace(True, margin))
+    box = Boxes.of([(2.0, 2.0), (6.0, 6.0), (0.0, 1e-9)])
+    found = count_blocked(box, np.zeros(1, np.int16), beams, 2, CellIndex(wall, 0.05), BitColumns(wall), 0.0)
+    assert found.tolist() == [count]
