@@ -39,7 +39,8 @@ def offsets(beams: Beams, i: int, x: mpmath.mpf, y: mpmath.mpf) -> tuple[mpmath.
 def test_every_true_end_point_lies_in_the_error_region() -> None:
     for seed in range(120):
         random = np.random.default_rng(seed)
-        mounting = Mounting(*random.uniform(-1.0, 1.0, 2).tolist(), float(random.uniform(-4.0, 4.0)), bool(random.integers(2)))
+        arm = (10.0 ** random.choice([0, 0, 6]) * random.uniform(-1.0, 1.0, 2)).tolist()
+        mounting = Mounting(*arm, float(random.uniform(-4.0, 4.0)), bool(random.integers(2)))
         bounds = Bounds(float(random.choice([0.0, 0.03, 0.5])), float(random.choice([0.0, 1e-3, 0.1])))
         increment = float(random.choice([-0.02, 1e-3, 0.3]))
         size = int(random.integers(1, 400))
@@ -138,6 +139,9 @@ def test_a_moving_robots_true_end_points_lie_in_the_error_region(seed: int) -> N
         assert abs(aside @ (-direction[1], direction[0])) <= beams.errors[i, 1] + 1e-12
         assert math.hypot(laser.x - beams.rays.origins[i, 0], laser.y - beams.rays.origins[i, 1]) <= beams.rays.margins[i] - 0.1 + 1e-12
         assert abs(math.remainder(angle - beams.rays.angles[i], 2.0 * math.pi)) <= beams.rays.turns[i] + 1e-12
+        # A ray that begins elsewhere ends, along the beam, before the true one does.
+        ahead = (laser.x - beams.rays.origins[i, 0]) * math.cos(angle) + (laser.y - beams.rays.origins[i, 1]) * math.sin(angle)
+        assert beams.rays.lengths[i] <= float(recorded.ranges[i]) - 0.02 - 0.1 + ahead + 1e-12
 
 
 def test_without_deskewing_the_motion_during_a_scan_is_ignored() -> None:
