@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes
+from ial.contractors.margins import ABOVE
 from ial.contractors.paving.clusters import cluster
 from ial.contractors.paving.limits import Deadline
 from ial.contractors.paving.paver import pave
@@ -53,6 +54,8 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
 
     Raises
     ------
+    ConfigError
+        If the precision is so fine, or so coarse, that the map's cells cannot be counted.
     MapError
         If the map has no occupied cell, or none where the robot may be.
     """
@@ -64,7 +67,15 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         self.config = config
         split, parts = divide(grid.resolution, config.precision.position_m)
         self.lattice = Lattice(parts * (grid.resolution / split), config.precision.heading_rad, parts)
-        self.sheets = Sheets(grid, allowed, split, self.lattice, radius_m=config.robot_radius_m, free_space=config.free_space.use)
+        self.sheets = Sheets(
+            grid,
+            allowed,
+            split,
+            self.lattice,
+            radius_m=config.robot_radius_m,
+            free_space=config.free_space.use,
+            position_m=config.precision.position_m,
+        )
         self._universe = PoseSet(self.sheets.universe)
         most = _LAID_OUT_CELLS if config.max_seconds is None else max(64, int(_CELLS_PER_S * config.max_seconds))
         self._affordable = min(most, _LAID_OUT_CELLS, config.max_boxes)
@@ -100,7 +111,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
             return states
         parts = (states.boxes[rows] for rows in (~states.carried, states.carried))
         confirmed, carried = (self._laid_out(move(in_rows(boxes), motion), boxes.volume()) for boxes in parts)
-        return unite(PoseSet(confirmed, outliers=states.outliers), PoseSet(carried))
+        return replace(unite(PoseSet(confirmed), PoseSet(carried)), outliers=states.outliers, accepted=states.accepted)
 
     def _laid_out(self, boxes: Boxes, volume: float = 0.0) -> Boxes:
         """Return the cells of the lattice that cover boxes, as far as they meet the domain; see `Lattice.cover`."""
@@ -112,7 +123,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
 
     def _within_map(self, boxes: Boxes) -> Boxes:
         """Return the boxes cut to the extent of the map, which holds the domain; those outside are dropped."""
-        edge = np.array([self.grid.width_m, self.grid.height_m]) * (1.0 + 2.0**-40)
+        edge = np.array([self.grid.width_m, self.grid.height_m]) * ABOVE
         lower, upper = boxes.lower.copy(), boxes.upper.copy()
         lower[:, :2] = np.maximum(lower[:, :2], 0.0)
         upper[:, :2] = np.minimum(upper[:, :2], edge)
@@ -131,7 +142,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         small = len(keys) == 1 and volume < 2.0 * self._affordable * finest
         tiles = self.lattice.few_tiles(moved, self._affordable) if small else None
         if tiles is None:
-            return self.contract(PoseSet(self._laid_out(moved, volume), outliers=states.outliers), reading)
+            return self.contract(PoseSet(self._laid_out(moved, volume), accepted=states.accepted), reading)
         sheet = self.sheets[keys[0]]
         return allowing(reading, states, lambda most: self._coarsened(self._tried(sheet, tiles, moved, most), most))
 
@@ -238,9 +249,8 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         return replace(poses, boxes=Boxes(lower, upper)[kept], carried=poses.carried[kept], bad=poses.bad[kept])
 
     def symmetries(self) -> tuple[Pose, ...]:
-        """Return the rotations of the map frame after which no scan can tell the difference."""
-        origin = self.grid.origin
-        return tuple(origin @ turn @ origin.inverse() for turn in symmetries(self.grid, self._allowed))
+        """Return the rotations of the grid's frame after which no scan can tell the difference."""
+        return symmetries(self.grid, self._allowed)
 
     def in_domain(self, pose: Pose) -> bool:
         """Return whether a position in the grid's frame lies in a cell of the domain."""
@@ -260,7 +270,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         """
         predicted = self.predict(states, motion)
         searched = motion is None and states is self._universe  # the step itself has searched the whole map in vain
-        found = PoseSet(Boxes.none(3)) if searched else self.contract(self._universe, reading)
+        found = PoseSet(Boxes.none(3), outliers=reading.outliers) if searched else self.contract(self._universe, reading)
         if len(found) and self.config.recovery == "restart":
             return found
         return unite(found, predicted)

@@ -7,14 +7,19 @@ import pytest
 
 from ial.contractors.boxes import Boxes
 from ial.datasets.scan import LaserScan, Mounting
-from ial.lidar.beams import select_beams
+from ial.lidar.beams import scan_beams, select_beams
 from ial.lidar.bit_columns import BitColumns, read_bits
-from ial.lidar.config import Bounds, FreeSpace
+from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig, Precision
 from ial.lidar.free_space import blocked, count_blocked
+from ial.lidar.localizer import Localizer
 from ial.maps.cell_index import CellIndex
 from ial.maps.floor_plan import floor_plan
-from ial.maps.occupancy_grid import OCCUPIED
+from ial.maps.occupancy_grid import FREE, OCCUPIED
 from ial.maps.ray_casting import cast_rays
+from ial.pose import Pose
+from ial.study.good_beams import bad_beams
+from ial.study.obstacles import Obstacles
+from ial.study.used_beams import UsedBeams
 
 NO_LASER_OFFSET = (0.0, 0.0, 0.0, 0.0)
 
@@ -132,6 +137,29 @@ def test_an_endless_ray_and_a_bearing_that_may_be_anything_are_bounded() -> None
     for bearing, error, count in ((0.0, 2.7, 0), (math.pi, 0.05, 1), (math.pi, 6.0, 0)):
         beams = select_beams(LaserScan(0, np.array([50.0], np.float32), bearing, 1.0), Bounds(0.0, error, 50.0), 0, 180, FreeSpace())
         assert count_blocked(seen, blind, beams, 2, *open_side, 50.0).tolist() == [count]
+
+
+@pytest.mark.parametrize("outliers", [0, 3, 29, "auto"])
+def test_a_scan_of_beams_without_return_alone_keeps_every_consistent_pose(outliers: int | str) -> None:
+    grid = floor_plan(8.0, 6.0, 0.1, 4)
+    free_space = FreeSpace(margin_m=0.05, no_return_m=0.8)
+    config = LocalizerConfig(Bounds(0.02, 0.0, 0.0), outliers, free_space=free_space, precision=Precision(0.3, 0.2))  # type: ignore[arg-type]
+    scan = LaserScan(0, np.full(30, np.inf, dtype=np.float32), -math.pi, math.pi / 15.0, range_max=2.0)
+    estimate = Localizer(grid, config=config).locate(scan)
+    beams = scan_beams(scan, config)
+    assert (len(beams), len(beams.ends), estimate.beams) == (30, 0, 30)
+    assert estimate.status == "ambiguous"
+    used, obstacles = UsedBeams.of(scan, config), Obstacles(grid)
+    random, kept, excluded = np.random.default_rng(0), 0, 0
+    while kept < 200:
+        pose = Pose(*random.uniform(0.0, (8.0, 6.0, 6.2)).tolist())
+        if grid.cells[int(pose.y / 0.1), int(pose.x / 0.1)] == FREE:
+            (bad,) = bad_beams(used, np.array([[pose.x, pose.y, pose.theta]]), obstacles)
+            consistent = bad <= estimate.outliers_allowed
+            kept += consistent
+            excluded += not estimate.poses.contains(pose)
+            assert estimate.poses.contains(pose) or not consistent
+    assert excluded > 20 or outliers == 29
 
 
 @pytest.mark.parametrize(

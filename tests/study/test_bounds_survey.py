@@ -16,6 +16,7 @@ from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 from ial.results.failure_picture import draw_failures
 from ial.study.bounds_survey import OUTLIERS, TOTALS_M, BoundsSurvey
+from ial.study.obstacles import Obstacles
 from ial.study.reference import own_poses, reference_poses
 
 WHEELS = MotionBounds(ErrorBound(0.03, 0.02, 0.02), ErrorBound(0.02, 0.01, 0.05))
@@ -56,8 +57,8 @@ def test_the_suggestion_holds() -> None:
     assert suggestion.bounds.range_error_m + suggestion.bounds.map_error_m == pytest.approx(0.05)
     again = survey_of(grid, suggestion, 2, outliers=12).record()
     assert again["motion"]["held"] >= 0.98
-    assert suggestion.bounds.motion.rotation.base < 0.2
-    assert suggestion.bounds.motion.translation.base > 0.01
+    assert suggestion.bounds.motion.rotation.per_message < 0.2
+    assert suggestion.bounds.motion.translation.per_message > 0.01
 
 
 def test_distances_are_those_to_closed_cells() -> None:
@@ -68,7 +69,7 @@ def test_distances_are_those_to_closed_cells() -> None:
     occupied = np.argwhere(cells == OCCUPIED)[:, ::-1] * 0.1
     aside = np.maximum(np.maximum(occupied - points[:, None], points[:, None] - occupied - 0.1), 0.0)
     expected = np.hypot(aside[..., 0], aside[..., 1]).min(axis=1)
-    assert BoundsSurvey(grid, LocalizerConfig())._distance(points) == pytest.approx(expected, abs=1e-12)
+    assert Obstacles(grid).distances(points) == pytest.approx(expected, abs=1e-12)
 
 
 def test_what_has_come_and_what_has_gone_is_found_on_the_map(tmp_path: Path) -> None:
