@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes
+from ial.contractors.expressions.functions import hypot
 from ial.contractors.paving.clusters import cluster
 from ial.contractors.paving.limits import Limit
 from ial.lidar.config import LocalizedSize
@@ -17,8 +17,6 @@ from ial.pose import Pose, wrap
 
 if TYPE_CHECKING:
     from ial.lidar.global_check import GlobalCheck
-
-_FARTHER = 1.0 + 1e-9  # far above the rounding of a distance within a map
 
 Status = Literal["localized", "ambiguous", "symmetric", "lost", "blind"]
 
@@ -72,8 +70,9 @@ class Estimate:
         Time of the scan, nanoseconds.
     status
         `localized`: one hypothesis, not larger than the configured size. `lost`: this scan fitted nowhere in the prediction and was
-        searched over the whole map. `blind`: it fitted nowhere at all. `symmetric`: all hypotheses are images of each other under a
-        symmetry of the map. `ambiguous`: everything else.
+        searched over the whole map. `blind`: it fitted nowhere at all. `symmetric`: whatever pose of one hypothesis is consistent with
+        all data, so are its images in all others, under rotations that map the map onto itself; see `are_images`. `ambiguous`:
+        everything else.
     hypotheses
         The connected sets of poses, the largest volume first.
     pose
@@ -150,38 +149,11 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True
 
 
 def radius(poses: PoseSet, pose: Pose, grid: OccupancyGrid) -> float:
-    """Return a distance (m) from a pose in the map frame that no position of a set exceeds."""
-    at = grid.pose_to_grid(pose)
-    x, y = np.maximum(np.abs(poses.boxes.lower[:, :2] - (at.x, at.y)), np.abs(poses.boxes.upper[:, :2] - (at.x, at.y))).T
-    # The pose was rounded twice between the frames, by units in the last place of the largest number that occurs.
-    largest = abs(pose.x) + abs(pose.y) + abs(grid.origin.x) + abs(grid.origin.y) + grid.width_m + grid.height_m
-    return float(np.hypot(x, y).max() * _FARTHER + 2.0**-46 * largest)
-
-
-def are_images(hypotheses: tuple[Hypothesis, ...], symmetries: tuple[Pose, ...], widths: npt.NDArray[np.float64]) -> bool:
-    """Return whether hypotheses are images of each other: those of the first under all symmetries of the map, and no others.
-
-    Parameters
-    ----------
-    hypotheses
-        Two or more.
-    symmetries
-        Of the map, in the map frame.
-    widths
-        Of a cell of the answer along x, y and θ. Cells do not map onto cells, so middles may differ by two of them.
-    """
-    if not 1 < len(hypotheses) <= 1 + len(symmetries):
-        return False
-    first = hypotheses[0].centre
-    images = [first, *(symmetry @ first for symmetry in symmetries)]
-    return all(sum(_near(image, each.centre, 2.0 * widths) for each in hypotheses) == 1 for image in images) and all(
-        any(_near(image, each.centre, 2.0 * widths) for image in images) for each in hypotheses
-    )
-
-
-def _near(one: Pose, other: Pose, most: npt.NDArray[np.float64]) -> bool:
-    difference = (one.x - other.x, one.y - other.y, wrap(one.theta - other.theta))
-    return bool((np.abs(difference) <= most).all())
+    """Return a distance (m) from a pose in the map frame that no position of a set exceeds, rounded up."""
+    at = grid.boxes_to_grid(Boxes.of([(value, value) for value in (pose.x, pose.y, pose.theta)]))
+    away = Boxes(poses.boxes.lower[:, :2], poses.boxes.upper[:, :2]) - Boxes(at.lower[:, :2], at.upper[:, :2])
+    x, y = zip(away.lower.T, away.upper.T, strict=True)
+    return float(hypot.bounds(x, y)[1].max())
 
 
 def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: bool, found: bool, symmetric: bool = False) -> Status:
@@ -198,7 +170,7 @@ def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: 
     found
         Whether it fitted anywhere.
     symmetric
-        Whether the hypotheses are images of each other under a symmetry of the map.
+        Whether the consistent poses of the hypotheses are images of each other; see `are_images`.
     """
     if rejected:
         return "lost" if found else "blind"

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import numpy.typing as npt
 
+from ial.contractors.angles import wrapped
 from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.angle import contains_angle
 from ial.contractors.paving.limits import Limit
@@ -51,6 +52,22 @@ class PoseSet:
 
     def __len__(self) -> int:
         return len(self.boxes)
+
+    def checked(self) -> "PoseSet":
+        """Return the set with its headings in the form of `ial.contractors.intervals.angle`.
+
+        Raises
+        ------
+        ValueError
+            If a box is empty, or a bound is NaN or infinite.
+        """
+        boxes = wrapped(self.boxes, 2)
+        fine = np.isfinite(boxes.lower).all(axis=1) & np.isfinite(boxes.upper).all(axis=1)
+        if not fine.all():
+            raise ValueError(
+                f"box {fine.argmin()} of {len(boxes)} is empty or has a bound that is infinite; leave it out, or cut it to the map"
+            )
+        return replace(self, boxes=boxes)
 
     def without(self, boxes: Boxes) -> "PoseSet":
         """Return the set without those of its boxes that are among others, bit for bit."""

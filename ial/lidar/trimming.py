@@ -13,7 +13,8 @@ from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 from ial.lidar.beams import Beams
 from ial.lidar.corners import OFFSET
-from ial.lidar.end_points import NEAR, relative_bounds
+from ial.lidar.end_points import relative_bounds
+from ial.lidar.margins import NEAR
 from ial.lidar.scan_contractor import fits
 from ial.maps.cell_index import BORDER, CellIndex
 

@@ -2,12 +2,12 @@
 
 import dataclasses
 import math
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
 from ial.contractors.boxes import FloatArray
-from ial.datasets.motion import ErrorBound, MotionBounds
 from ial.datasets.recording import Step
 from ial.lidar.config import LocalizerConfig
 from ial.maps.occupancy_grid import OccupancyGrid
@@ -16,6 +16,7 @@ from ial.pose import Pose, wrap
 from ial.study.blocked_rays import blocked_rays
 from ial.study.failures import Failures
 from ial.study.good_beams import good_beams
+from ial.study.motion_fit import RecordedStep, fitted
 from ial.study.obstacles import Obstacles
 from ial.study.used_beams import UsedBeams, in_grid
 
@@ -29,7 +30,6 @@ QUANTILES = (0.5, 0.9, 0.95, 0.98, 0.99)
 
 _TYPICAL_OUTLIERS, _TYPICAL_SCANS = 0.1, 0.95  # the suggested bound leaves at most so many beams bad in so many scans
 _HELD = 0.99  # of scans and steps, by what is suggested
-_DIGITS = 2
 
 
 class BoundsSurvey:
@@ -53,7 +53,8 @@ class BoundsSurvey:
         self._distances: list[FloatArray] = []
         self._translation: list[float] = []
         self._rotation: list[float] = []
-        self._ratios: list[tuple[float, float]] = []
+        self._steps: list[RecordedStep] = []
+        self._kept: list[bool] = []
         self._previous: Pose | None = None
 
     def add(self, step: Step, pose: Pose | None) -> None:
@@ -89,11 +90,11 @@ class BoundsSurvey:
     def _add_motion(self, step: Step, true: Pose) -> None:
         assert step.motion is not None
         middle = 0.5 * (step.motion.lower + step.motion.upper)
-        half = 0.5 * (step.motion.upper - step.motion.lower)
         aside = np.abs([true.x - middle[0], true.y - middle[1], wrap(true.theta - middle[2])])
         self._translation.append(float(aside[:2].max()))
         self._rotation.append(float(aside[2]))
-        self._ratios.append((float((aside[:2] / half[:2]).max()), float(aside[2] / half[2])))
+        self._kept.append(step.motion.contains(true))
+        self._steps.append(RecordedStep(step.recorded, true))
 
     @property
     def scans(self) -> int:
@@ -108,24 +109,21 @@ class BoundsSurvey:
     def suggestion(self) -> LocalizerConfig:
         """Return the configuration with bounds that this recording keeps in 99 % of its scans and steps.
 
-        The total bound is the smallest one tried that leaves at most 10 % of the beams bad in 95 % of the scans; a motion bound is
-        multiplied by the factor that 99 % of the steps need.
+        The total bound is the smallest one tried that leaves at most 10 % of the beams bad in 95 % of the scans. The motion bounds are
+        those of `fitted`.
         """
         held, column = self.held(), OUTLIERS.index(_TYPICAL_OUTLIERS)
         rows = np.flatnonzero(held[:, column] >= _TYPICAL_SCANS)
         row = int(rows[0]) if len(rows) else len(TOTALS_M) - 1
         bounds = self.config.bounds
         wanted = dataclasses.replace(bounds, map_error_m=round(max(TOTALS_M[row] - bounds.range_error_m, 0.0), 3))
-        if self._ratios:
-            translation, rotation = np.quantile(self._ratios, _HELD, axis=0).tolist()
-            motion = bounds.motion
-            sideways = None if motion.sideways is None else _scaled(motion.sideways, translation)
-            motion = MotionBounds(_scaled(motion.translation, translation), _scaled(motion.rotation, rotation), sideways)
-            wanted = dataclasses.replace(wanted, motion=motion)
+        if self._steps:
+            wanted = dataclasses.replace(wanted, motion=fitted(bounds.motion, self._steps, _HELD))
         config = dataclasses.replace(self.config, bounds=wanted)
         if config.outliers == "auto":
             needed = float(np.quantile([shares[row] for shares in self._shares], _HELD))
-            most = math.ceil(100.0 * (needed + (config.outlier_margin if isinstance(config.outlier_margin, float) else 0.0))) / 100.0
+            margin = 0 if isinstance(config.outlier_margin, int) else Fraction(str(config.outlier_margin))
+            most = math.ceil(100 * (Fraction(str(needed)) + margin)) / 100
             config = dataclasses.replace(config, max_outliers=min(0.9, most))
         return config
 
@@ -143,10 +141,11 @@ class BoundsSurvey:
                 for total, row in zip(TOTALS_M, self.held(), strict=True)
             },
             "motion": {
-                "steps": len(self._ratios),
+                "steps": len(self._steps),
+                "messages": sum(step.messages for step in self._steps),
                 "translation_m": _quantiles(np.array(self._translation)),
                 "rotation_rad": _quantiles(np.array(self._rotation)),
-                "held": float(np.mean(np.array(self._ratios).max(axis=1) <= 1.0)) if self._ratios else None,
+                "held": float(np.mean(self._kept)) if self._kept else None,
             },
         }
 
@@ -156,9 +155,3 @@ def _quantiles(values: FloatArray) -> dict[str, float] | None:
         return None
     found = {f"{share:g}": float(value) for share, value in zip(QUANTILES, np.quantile(values, QUANTILES), strict=True)}
     return {**found, "max": float(values.max())}
-
-
-def _scaled(bound: ErrorBound, factor: float) -> ErrorBound:
-    """Return a bound times a factor, rounded up to two digits."""
-    parts = (factor * value for value in (bound.base, bound.per_metre, bound.per_radian))
-    return ErrorBound(*(math.ceil(value * 10**_DIGITS - 1e-9) / 10**_DIGITS for value in parts))

@@ -6,6 +6,7 @@ import pytest
 from ial.bouncing.motion_bounds import MotionBounds
 from ial.bouncing.ray_grid import coarsened
 from ial.bouncing.ray_model import RayModel
+from ial.bouncing.ray_set import RaySet
 from ial.bouncing.real_robot import RealRobot
 from ial.bouncing.walls import Walls
 from ial.errors import ConfigError, MapError
@@ -85,6 +86,22 @@ def test_a_step_is_within_what_is_predicted() -> None:
         assert set(after.steps.tolist()) <= set(predicted.steps.tolist())
         assert extent(model, after) <= extent(model, predicted) + 1e-9
     assert robot.pose[0] >= 0
+
+
+def test_the_way_of_a_leg_lies_between_exact_bounds() -> None:
+    """k steps of at least (1 − e)·h and at most (1 + e)·h, give or take what the clock may have missed, and part of another step."""
+    for step, error, missed in (
+        (Fraction(1, 10), Fraction(1, 50), 1),
+        (Fraction(1, 3), Fraction(0), 0),
+        (Fraction(7, 9), Fraction(1, 7), 2),
+    ):
+        model = RayModel(ROOM, Fraction(90), step, MotionBounds(Fraction(0), error, missed), most_pieces=4000)
+        start = model.leg(model.universe(), 1).only(np.arange(1))
+        for count in range(200):
+            states = RaySet(start.walls, start.lower, start.upper, np.array([count], np.int32), start.arriving, np.array([np.inf]))
+            ((least,), (most,)) = model.ways(states)
+            assert Fraction(least) <= max(count - missed, 0) * step * (1 - error) <= Fraction(least) + Fraction(1, 10**9)
+            assert Fraction(most) - Fraction(1, 10**9) <= (count + missed + 1) * step * (1 + error) <= Fraction(most)
 
 
 def test_more_steps_than_fit_are_a_rejection() -> None:

@@ -84,7 +84,7 @@ def test_every_true_motion_lies_in_its_interval(grid: OccupancyGrid, adversarial
 
 def test_adversarial_odometry_comes_near_its_bounds(grid: OccupancyGrid) -> None:
     simulation, path = _simulate(grid, SensorErrors(adversarial=True), 4)
-    tight = MotionBounds(replace(BOUNDS.translation, base=0.5 * BOUNDS.translation.base), BOUNDS.rotation)
+    tight = MotionBounds(replace(BOUNDS.translation, per_message=0.5 * BOUNDS.translation.per_message), BOUNDS.rotation)
     missed = [
         step.motion is not None and not step.motion.contains(path[step.index - 1].inverse() @ path[step.index])
         for step in steps(simulation.recording, tight)

@@ -57,8 +57,8 @@ def test_the_suggestion_holds() -> None:
     assert suggestion.bounds.range_error_m + suggestion.bounds.map_error_m == pytest.approx(0.05)
     again = survey_of(grid, suggestion, 2, outliers=12).record()
     assert again["motion"]["held"] >= 0.98
-    assert suggestion.bounds.motion.rotation.base < 0.2
-    assert suggestion.bounds.motion.translation.base > 0.01
+    assert suggestion.bounds.motion.rotation.per_message < 0.2
+    assert suggestion.bounds.motion.translation.per_message > 0.01
 
 
 def test_distances_are_those_to_closed_cells() -> None:

@@ -250,7 +250,7 @@ def test_many_boxes_of_very_different_sizes_form_a_tree_of_halves() -> None:
         (Boxes.of([(0, 1)]), (1,), "axis 1 was said to be circular"),
         (Boxes.of([(0, 1)]), (-1,), "axis -1 was said to be circular"),
         (Boxes(np.array([[0.0], [np.inf]]), np.array([[1.0], [-np.inf]])), (), "box 1 of 2 is empty"),
-        (Boxes(np.array([[np.nan]]), np.array([[1.0]])), (), "box 0 of 1 is empty or has a bound that is NaN"),
+        (Boxes(np.array([[np.nan]]), np.array([[1.0]])), (), "box 0 of 1 has a bound that is NaN"),
     ],
 )
 def test_boxes_that_cannot_be_clustered_are_refused(boxes: Boxes, circular: tuple[int, ...], message: str) -> None:
