@@ -8,7 +8,8 @@ from ial.contractors.groups import group_rows
 from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 from ial.lidar.corners import OFFSET, corners
-from ial.lidar.end_points import NEAR, relative_bounds
+from ial.lidar.end_points import relative_bounds
+from ial.lidar.margins import NEAR
 from ial.lidar.scan_contractor import ScanContractor
 from ial.maps.cell_index import BORDER
 

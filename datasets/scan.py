@@ -9,12 +9,14 @@ import numpy.typing as npt
 
 from ial.contractors.expressions.functions import add, mul
 from ial.contractors.expressions.operation import Bounds
+from ial.contractors.intervals.trigonometric import LARGEST_ANGLE
 from ial.datasets.odometry import quaternion_heading
 from ial.datasets.odometry_path import OdometryPath
 from ial.errors import RecordingError
 from ial.pose import Pose
 
-_SAFETY = 1.0 + 2.0**-20  # covers the double-precision rounding of a slack that is itself thousands of units in the last place
+LARGEST_BEARING = 0.5 * LARGEST_ANGLE
+"""Radians beyond which no bearing lies: with the headings of the laser and the robot added, sines are known up to twice that."""
 
 
 class BeamClass(IntEnum):
@@ -93,8 +95,8 @@ class LaserScan:
     Raises
     ------
     RecordingError
-        If there are no beams, if two beams share one bearing (zero increment), or if the angles or the limits make no sense. The text
-        holds no numbers: readers count skipped scans by it.
+        If there are no beams, if two beams share one bearing (zero increment), or if the angles, the limits or the sweep make no sense.
+        The text holds no numbers: readers count skipped scans by it.
     """
 
     stamp_ns: int
@@ -122,12 +124,16 @@ class LaserScan:
             raise RecordingError("scan without beams")
         if not np.isfinite([self.angle_min, self.angle_increment, self.time_increment]).all():
             raise RecordingError("scan whose angles or times are not finite")
+        if not max(abs(self.angle_min), abs(self.angle_min + (len(self.ranges) - 1) * self.angle_increment)) <= LARGEST_BEARING:
+            raise RecordingError("scan whose bearings are thousands of turns")
         if self.angle_increment == 0.0 and len(self.ranges) > 1:
             raise RecordingError("scan with an angle increment of zero")
         if not self.range_max > max(self.range_min, 0.0):  # also true of NaN
             raise RecordingError("scan whose range_max does not exceed its range_min")
         if self.sweep is not None and len(self.sweep) < 2:
             raise RecordingError("scan whose sweep is not known at its first and last beam")
+        if self.sweep is not None and not np.isfinite(self.sweep.numbers).all():
+            raise RecordingError("scan with a sweep that is no motion: not finite")
 
     def __len__(self) -> int:
         return len(self.ranges)
@@ -170,7 +176,7 @@ class LaserScan:
     def range_slack(self) -> npt.NDArray[np.float64]:
         """Return how far a real number that rounds to each float32 range may lie from it, metres, float64 of shape (n,); NaN stays."""
         with np.errstate(invalid="ignore"):
-            return np.abs(np.spacing(self.ranges)).astype(np.float64) * (0.5 * _SAFETY)
+            return np.abs(np.spacing(self.ranges)).astype(np.float64) * 0.5  # exact
 
 
 def last_beam_ns(stamp_ns: int, time_increment: float, beams: int) -> int:

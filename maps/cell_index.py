@@ -12,13 +12,9 @@ from ial.contractors import threads
 from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.arithmetic import mul
 from ial.contractors.kernels import kernel
+from ial.contractors.margins import ABOVE, BELOW
 from ial.errors import MapError
 from ial.maps.occupancy_grid import check_resolution, check_size
-
-# Inside a grid of at most 2^16 cells a side, x·(1/r) is wrong by less than 2^16·2^-51 cells, and what adding the slack rounds off is
-# less than that: this much slack covers both. Cells as near as that to a rectangle (12 picometres at 5 cm) may count as met.
-SLACK = 2.0**-32
-
 
 BORDER = 64
 """Columns on either side of a table that repeat its edge: rectangles up to this far outside are looked up without a test."""
@@ -57,10 +53,12 @@ def cells_met(inverse_resolution, lower, upper, origin, cells):  # type: ignore[
     """Return (first, stop): the closed interval meets the closed cells first … stop − 1 of those along one axis, and perhaps no others.
 
     They are counted from the cell `origin` on and clamped to 0 … cells; first >= stop where the interval lies outside. Bounds may be
-    infinite, not NaN.
+    infinite, not NaN. Cells as near to the interval as `margins.ROUNDINGS` of its distance from the corner of the grid may count as met.
     """
-    first = np.floor(lower * inverse_resolution - SLACK) - origin  # the slack reaches the cell to the left of an edge, too
-    stop = np.floor(upper * inverse_resolution + SLACK) + 1.0 - origin
+    # Left and below of the grid there is no cell, so numbers are positive where they count. They are rounded three times, or four where
+    # the width of a cell is itself a rounded part of a wider one. At an edge the factor reaches the cell to the left of it, too.
+    first = np.floor(lower * inverse_resolution * BELOW) - origin
+    stop = np.floor(upper * inverse_resolution * ABOVE) + 1.0 - origin
     return int(min(max(first, 0.0), cells)), int(max(min(stop, cells), 0.0))
 
 
@@ -88,7 +86,7 @@ def edge_above(index, resolution):  # type: ignore[no-untyped-def]
 
 @kernel
 def _trimmed(inverse_resolution, resolution, lower, upper, cells):  # type: ignore[no-untyped-def]
-    """Return `cells_met` without the outermost cells that the slack alone let in: exactly the cells that are met."""
+    """Return `cells_met` without the outermost cells that the margin alone let in: exactly the cells that are met."""
     first, stop = cells_met(inverse_resolution, lower, upper, 0, cells)
     # A number lies below a double exactly if the largest double that is not above it does.
     if first < stop and edge_below(first + 1, resolution) < lower:
@@ -162,6 +160,8 @@ class CellIndex:
         Count in 16 bits, modulo 2¹⁶: half the memory. Rectangles of 2¹⁶ cells or more are then taken to meet the set.
     origin
         Row and column of the mask's first cell in the grid, if the mask is a part of a larger one.
+    whole
+        Rows and columns of that larger grid.
 
     Attributes
     ----------
@@ -170,8 +170,8 @@ class CellIndex:
         columns below j.
     bordered
         The same table with `BORDER` more columns on either side, contiguous; `table` is a view of it.
-    origin
-        Row and column of its first cell in the grid.
+    origin, whole
+        Row and column of its first cell in the grid, and how many rows and columns the grid has.
     resolution, inverse_resolution
         The width of a cell, and 1 / resolution rounded to nearest.
 
@@ -181,7 +181,14 @@ class CellIndex:
         If the mask is empty, too large or no two-dimensional mask, or the resolution cannot be meant.
     """
 
-    def __init__(self, mask: npt.NDArray[np.bool_], resolution: float, compact: bool = False, origin: tuple[int, int] = (0, 0)) -> None:
+    def __init__(
+        self,
+        mask: npt.NDArray[np.bool_],
+        resolution: float,
+        compact: bool = False,
+        origin: tuple[int, int] = (0, 0),
+        whole: tuple[int, int] | None = None,
+    ) -> None:
         if mask.ndim != 2 or mask.dtype != np.bool_:
             raise MapError(f"the mask is an array of {mask.dtype} with shape {mask.shape}; give bool with shape (rows, columns)")
         check_size(*mask.shape)
@@ -194,6 +201,7 @@ class CellIndex:
         _accumulate(mask, self.bordered)
         self.table = self.bordered[:, BORDER : BORDER + columns + 1]
         self.origin = origin
+        self.whole = whole or (origin[0] + rows, origin[1] + columns)
         self.resolution = float(resolution)
         self.inverse_resolution = 1.0 / self.resolution
 

@@ -15,7 +15,7 @@ from ial.pose import Pose
 FREE, OCCUPIED, UNKNOWN = 0, 1, 2
 CLASS_NAMES = ("free", "occupied", "unknown")
 
-LARGEST_SIDE = 2**16  # cells; the index arithmetic of `ial.maps.cell_index` is proved up to here
+LARGEST_SIDE = 2**16  # cells; the margins of `ial.lidar.margins` are proved for tables up to here
 LARGEST_AREA = 2**30  # cells; what fits into the memory of an ordinary computer, and into 32-bit counts
 SMALLEST_RESOLUTION, LARGEST_RESOLUTION = 1e-6, 1e3  # metres; beyond these a number is a mistake or another unit
 

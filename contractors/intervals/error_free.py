@@ -86,15 +86,18 @@ def enclose(high, low, error):  # type: ignore[no-untyped-def]
     return down(lower) if below < 0.0 else lower, up(upper) if above > 0.0 else upper
 
 
+_CUBE_IN_RANGE = 2.0**-300
+
+
 @kernel
 def enclose_odd(x, low, relative, away):  # type: ignore[no-untyped-def]
     """Return doubles below and above x + low, the value at x of an odd function that is near x and a double at 0 only.
 
-    low has an error of at most relative·abs(low), and may have underflowed where abs(x) < 2^-300; `away` is 1 if the values are farther
-    from 0 than x, else −1.
+    low has an error of at most relative·abs(low), and may have underflowed where abs(x) is below `_CUBE_IN_RANGE`; `away` is 1 if the
+    values are farther from 0 than x, else −1.
     """
     lower, upper = enclose(x, low, abs(low) * relative)
-    if abs(x) < 2.0**-300:
+    if abs(x) < _CUBE_IN_RANGE:
         lower = down(x) if x * away < 0.0 else x
         upper = up(x) if x * away > 0.0 else x
     return lower, upper
@@ -128,12 +131,13 @@ def scale_outward(lower, upper, exponent):  # type: ignore[no-untyped-def]
 
 
 _LEAST_MANTISSA = 0.7071067811865475
+_LEAST_NORMAL = 2.0**-1022
 
 
 @kernel
 def split(x):  # type: ignore[no-untyped-def]
     """Return m and a whole number k, a double, with x = m·2^k exactly and m between √½ and √2, for a finite x > 0."""
-    small = x < 2.0**-1022
+    small = x < _LEAST_NORMAL
     bits = np.float64(x * 2.0**54 if small else x).view(np.int64)
     k = (bits - np.float64(_LEAST_MANTISSA).view(np.int64)) >> 52
     return np.int64(bits - (k << 52)).view(np.float64), np.float64(k) - (54.0 if small else 0.0)

@@ -12,6 +12,7 @@ import numpy as np
 
 from ial.contractors.intervals.error_free import fast_two_sum, fma, split, sum_residual, two_sum
 from ial.contractors.kernels import kernel
+from ial.contractors.margins import EXPONENTIAL, LOGARITHM, LOGARITHM_REST, REDUCTION
 
 # ln 2 = _LN2_HIGH + _LN2_LOW within 2^-95; the first has 41 bits, so that its product with an exponent is exact.
 _LN2_HIGH, _LN2_LOW = 0.693147180559663, 2.8235290563031577e-13
@@ -41,7 +42,7 @@ def exp_reduced(r, rest):  # type: ignore[no-untyped-def]
     upper = _E6 + r * (_E7 + r * (_E8 + r * (_E9 + r * _E10)))
     tail = z * (lower + (z * z * z) * upper)
     high, low = fast_two_sum(1.0, r)
-    return high, low + (tail + (rest + rest * r)), 4.0 * 2.0**-53 * z
+    return high, low + (tail + (rest + rest * r)), EXPONENTIAL * z
 
 
 @kernel
@@ -57,7 +58,7 @@ def exp_number(x, rest):  # type: ignore[no-untyped-def]
     r = reduced - product
     rest = (sum_residual(reduced, -product, r) - fma(k, _LN2_LOW, -product)) + rest
     high, low, error = exp_reduced(*fast_two_sum(r, rest))
-    return high, low, error + abs(k) * 2.0**-90, k
+    return high, low, error + abs(k) * REDUCTION, k
 
 
 @kernel
@@ -76,7 +77,7 @@ def log_reduced(x, rest):  # type: ignore[no-untyped-def]
     series = z * (_L0 + z * (_L1 + z * (_L2 + z * (_L3 + z * (_L4 + z * (_L5 + z * (_L6 + z * _L7)))))))
     high, middle = two_sum(f, -half)
     low = s * (half + series) + (rest / x - half_rest)
-    error = 16.0 * 2.0**-53 * abs(s * half) + (2.0**-104 if rest != 0.0 else 0.0)
+    error = LOGARITHM * abs(s * half) + (LOGARITHM_REST if rest != 0.0 else 0.0)
     return k, high, middle, low, error
 
 
@@ -87,4 +88,4 @@ def log_number(x, rest, exponent):  # type: ignore[no-untyped-def]
     k += exponent
     high, residual = two_sum(k * _LN2_HIGH, f)
     low = (residual + middle) + (low + k * _LN2_LOW)
-    return high, low, error + (abs(k) * 2.0**-90 + abs(high) * 2.0**-104)
+    return high, low, error + (abs(k) * REDUCTION + abs(high) * LOGARITHM_REST)

@@ -23,6 +23,7 @@ from ial.contractors.intervals.error_free import (
 from ial.contractors.intervals.exp_log import exp_number, exp_reduced, log_number, log_reduced
 from ial.contractors.intervals.sets import unless
 from ial.contractors.kernels import kernel
+from ial.contractors.margins import ABOVE, CHANGE_OF_BASE, COMPOSED, HALVES, HYPERBOLIC_SINE, ROUNDINGS, SERIES, SMALL
 
 # Constants as the nearest double and the double nearest to the rest.
 _LN2, _LN2_REST = 0.6931471805599453, 2.3190468138462996e-17
@@ -94,7 +95,7 @@ def _log2(x):  # type: ignore[no-untyped-def]
     product, rest = two_product(f, _LOG2_E)
     high, residual = two_sum(k, product)
     low = residual + (rest + (low * _LOG2_E + f * _LOG2_E_REST))
-    return high, low, 1.5 * error + abs(product) * 2.0**-103
+    return high, low, 1.5 * error + abs(product) * CHANGE_OF_BASE
 
 
 @kernel
@@ -106,7 +107,7 @@ def _log10(x):  # type: ignore[no-untyped-def]
     nearest = np.rint(product)
     exact = (nearest >= 0.0) & (nearest <= 22.0) & (_POWERS_OF_TEN[int(nearest) if 0.0 <= nearest <= 22.0 else 0] == x)
     low = rest + (low * _LOG10_E + high * _LOG10_E_REST)
-    error = 0.5 * error + abs(product) * 2.0**-103
+    error = 0.5 * error + abs(product) * CHANGE_OF_BASE
     return nearest if exact else product, 0.0 if exact else low, 0.0 if exact else error
 
 
@@ -147,7 +148,7 @@ def _halves(x):  # type: ignore[no-untyped-def]
     passed = inverse * inverse * factor
     sine, sine_rest = two_sum(high, -(inverse * factor))
     cosine, cosine_rest = two_sum(high, inverse * factor)
-    sine_error, cosine_error = error * (1.0 + passed) + 2.0**-98, error * abs(1.0 - passed) + 2.0**-98
+    sine_error, cosine_error = error * (1.0 + passed) + HALVES, error * abs(1.0 - passed) + HALVES
     return (
         sine,
         sine_rest + (low - rest * factor),
@@ -171,7 +172,7 @@ def _sinh_rest(x):  # type: ignore[no-untyped-def]
 def _sinh(x):  # type: ignore[no-untyped-def]
     """Return bounds of sinh x."""
     if abs(x) < 0.5:
-        return enclose_odd(x, _sinh_rest(x), 2.0**-50, 1.0)
+        return enclose_odd(x, _sinh_rest(x), HYPERBOLIC_SINE, 1.0)
     high, low, error, _, _, _, k, _ = _halves(abs(x))
     sign = 1.0 if x > 0.0 else -1.0
     return _exp_bounds(sign * high, sign * low, error, k - 1.0)
@@ -202,19 +203,19 @@ def cosh(al, au):  # type: ignore[no-untyped-def]
 def _tanh(x):  # type: ignore[no-untyped-def]
     """Return bounds of tanh x; near 0 of x − x³/3, and from 20 on it rounds to 1."""
     near = min(abs(x), 20.0)
-    if near < 2.0**-26:
-        return enclose_odd(x, -x * (x * x / 3.0), 2.0**-49, -1.0)
+    if near <= SMALL:
+        return enclose_odd(x, -x * (x * x / 3.0), SERIES, -1.0)
     sine, sine_rest, _, cosine, cosine_rest, cosine_error, k, relative = _halves(near)
     if near < 0.5:
         twice = power_of_two(1.0 - k)
         rest = _sinh_rest(near) * twice
         high, low = quotient(*fast_two_sum(near * twice, rest), *fast_two_sum(cosine, cosine_rest))
-        error = (2.0**-50 * rest + high * cosine_error) / cosine
+        error = (HYPERBOLIC_SINE * rest + high * cosine_error) / cosine
     else:
         high, low = quotient(*fast_two_sum(sine, sine_rest), *fast_two_sum(cosine, cosine_rest))
-        error = relative * (1.0 - high * high)  # an error of e^x is one of x, and the derivative of tanh is 1 − tanh²
+        error = relative * (1.0 - high * high + ROUNDINGS)  # an error of e^x is one of x, and the derivative of tanh is 1 − tanh²
     sign = 1.0 if x > 0.0 else -1.0
-    lower, upper = enclose(sign * high, sign * low, 1.01 * error + 2.0**-97 * high)
+    lower, upper = enclose(sign * high, sign * low, ABOVE * error + COMPOSED * high)
     return max(lower, -1.0), min(upper, 1.0)
 
 
@@ -229,8 +230,8 @@ def _asinh(x):  # type: ignore[no-untyped-def]
     """Return bounds of asinh x = log(x + √(x² + 1)); near 0 of x − x³/6, far out of log(2x + 1/(2x))."""
     near = abs(x)
     sign = 1.0 if x > 0.0 else -1.0
-    if near < 2.0**-26:
-        return enclose_odd(x, -x * (x * x / 6.0), 2.0**-49, -1.0)
+    if near <= SMALL:
+        return enclose_odd(x, -x * (x * x / 6.0), SERIES, -1.0)
     if near == np.inf:
         return x, x
     if near > 2.0**30:
@@ -241,7 +242,7 @@ def _asinh(x):  # type: ignore[no-untyped-def]
         length, length_rest = root(*fast_two_sum(square, rest + carry))
         argument, carry = two_sum(near, length)
         high, low, error = log_number(*fast_two_sum(argument, length_rest + carry), 0.0)
-    return enclose(sign * high, sign * low, error + 2.0**-97)
+    return enclose(sign * high, sign * low, error + COMPOSED)
 
 
 @kernel
@@ -263,7 +264,7 @@ def _acosh(x):  # type: ignore[no-untyped-def]
         length, length_rest = root(*two_sum(square, rest + carry))
         argument, carry = two_sum(x, length)
         high, low, error = log_number(*fast_two_sum(argument, length_rest + carry), 0.0)
-    return enclose(high, low, error + 2.0**-97)
+    return enclose(high, low, error + COMPOSED)
 
 
 @kernel
@@ -277,12 +278,12 @@ def _atanh(x):  # type: ignore[no-untyped-def]
     """Return bounds of atanh x = log((1 + x) / (1 − x)) / 2 for abs(x) <= 1; near 0 of x + x³/3."""
     near = abs(x)
     sign = 1.0 if x > 0.0 else -1.0
-    if near < 2.0**-26:
-        return enclose_odd(x, x * (x * x / 3.0), 2.0**-49, 1.0)
+    if near <= SMALL:
+        return enclose_odd(x, x * (x * x / 3.0), SERIES, 1.0)
     if near == 1.0:
         return sign * np.inf, sign * np.inf
     high, low, error = log_number(*quotient(*two_sum(1.0, near), *two_sum(1.0, -near)), 0.0)
-    return enclose(0.5 * sign * high, 0.5 * sign * low, 0.5 * error + 2.0**-97)
+    return enclose(0.5 * sign * high, 0.5 * sign * low, 0.5 * error + COMPOSED)
 
 
 @kernel

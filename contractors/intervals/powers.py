@@ -22,7 +22,10 @@ from ial.contractors.intervals.error_free import (
 )
 from ial.contractors.intervals.exp_log import exp_number, log_number
 from ial.contractors.kernels import kernel
+from ial.contractors.margins import EXPONENT, PRODUCT, QUOTIENT
 from ial.contractors.rounding import down, up
+
+_FAR_FROM_ONE = 2.0**100
 
 
 @kernel
@@ -34,13 +37,13 @@ def _multiply(ah, al, bh, bl):  # type: ignore[no-untyped-def]
     exact = (al == 0.0) & (bl == 0.0) | (ah == 1.0) & (al == 0.0)
     high, low = two_product(ah, bh)
     high, low = fast_two_sum(high, low + fma(ah, bl, al * bh))
-    return high, low, 0.0 if exact else 2.0**-103
+    return high, low, 0.0 if exact else PRODUCT
 
 
 @kernel
 def _near_one(high, low, exponent):  # type: ignore[no-untyped-def]
     """Return (high + low)·2^exponent with its high part between √½ and √2 if it had gone far from 1."""
-    if 2.0**-100 < high < 2.0**100:
+    if 1.0 / _FAR_FROM_ONE < high < _FAR_FROM_ONE:
         return high, low, exponent
     mantissa, k = split(high)
     return mantissa, low * power_of_two(-k), exponent + k
@@ -69,7 +72,7 @@ def _power(x, n):  # type: ignore[no-untyped-def]
         base, base_low, base_exponent = _near_one(base, base_low, 2.0 * base_exponent)
     if n < 0 and not (high == 1.0 and low == 0.0 and error == 0.0):
         high, low = quotient(1.0, 0.0, high, low)
-        error += 2.0**-102
+        error += QUOTIENT
     return high, low, exponent if n >= 0 else -exponent, 1.5 * error
 
 
@@ -129,7 +132,7 @@ def _root_bounds(x, n):  # type: ignore[no-untyped-def]
         high, low, error, k = exp_number(*quotient(*fast_two_sum(log_high, log_low), count, 0.0))
         # An error of the exponent is one of the root, relative to it, which is below 1.5·2^k. n as a double is off by less than a part in
         # 2^53, and only where the exponent is below 2^-43.
-        error += 1.5 * log_error / abs(count) + 2.0**-90
+        error += 1.5 * log_error / abs(count) + EXPONENT
         lower, upper = enclose(high, low, error)
         nearest, rest = fast_two_sum(high, low)
         lower, upper = scale_outward(lower, upper, k)

@@ -25,9 +25,9 @@ from ial.contractors.intervals.trigonometric import (
     tan,
 )
 from ial.contractors.kernels import kernel
+from ial.contractors.margins import ROUNDINGS
 
 _HALVES_PER_RADIAN = 1.0 / math.pi
-_MARGIN = 1e-9  # in branches; the number of a branch is computed with an error below 1e-10
 _CANDIDATES = 3  # the branch of a bound, the next one, and one more because of the margin
 
 
@@ -41,12 +41,18 @@ def _branch(number, alternate, offset, low, high):  # type: ignore[no-untyped-de
 
 
 @kernel
+def _margin(x):  # type: ignore[no-untyped-def]
+    """Return what the number of a branch may be wrong by: 1/π, a product and two sums of terms below abs(x)/π + 1."""
+    return ROUNDINGS * (abs(x) + 1.0)
+
+
+@kernel
 def _nearest(alternate, offset, phase, low, high, xl, xu):  # type: ignore[no-untyped-def]
     """Return the hull of the solutions within x of all branches, the k-th of which covers [k − phase, k − phase + 1]·π."""
     left, right = xl, xu
     if abs(xl) <= LARGEST_ANGLE:
         left = np.inf
-        first = np.floor(xl * _HALVES_PER_RADIAN + phase - _MARGIN)
+        first = np.floor(xl * _HALVES_PER_RADIAN + phase - _margin(xl))
         for i in range(_CANDIDATES):
             lower, upper = _branch(first + i, alternate, offset, low, high)
             if lower <= xu and upper >= xl:
@@ -54,7 +60,7 @@ def _nearest(alternate, offset, phase, low, high, xl, xu):  # type: ignore[no-un
                 break
     if abs(xu) <= LARGEST_ANGLE:
         right = -np.inf
-        last = np.floor(xu * _HALVES_PER_RADIAN + phase + _MARGIN)
+        last = np.floor(xu * _HALVES_PER_RADIAN + phase + _margin(xu))
         for i in range(_CANDIDATES):
             lower, upper = _branch(last - i, alternate, offset, low, high)
             if lower <= xu and upper >= xl:

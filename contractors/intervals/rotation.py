@@ -4,6 +4,7 @@ import math
 
 from ial.contractors.intervals.arithmetic import add, mul, sub
 from ial.contractors.kernels import kernel
+from ial.contractors.margins import ROUNDINGS
 
 
 @kernel
@@ -28,17 +29,17 @@ def turn_point(x, y, s0, c0, s1, c1):  # type: ignore[no-untyped-def]
     Parameters
     ----------
     x, y
-        The point.
+        The point; coordinates are 0 or of a size of at least 1e-140, so that no square underflows.
     s0, c0, s1, c1
-        Sine and cosine of the lower and of the upper angle, each wrong by at most 2^-52 (`trigonometric.sincos`).
+        Sine and cosine of the lower and of the upper angle, each wrong by less than 2^-53 (`trigonometric.sincos`).
 
     Returns
     -------
     tuple
-        ul, uu, vl, vu. Two errors of sine or cosine and three roundings of terms below abs(x) + abs(y) stay far below the
-        slack of 2^-48·(abs(x) + abs(y)) by which the box is widened.
+        ul, uu, vl, vu. They are widened by `ROUNDINGS` of abs(x) + abs(y), for two errors of sine or cosine, and up to seven roundings
+        of terms below that.
     """
-    slack = (abs(x) + abs(y)) * 2.0**-48
+    slack = (abs(x) + abs(y)) * ROUNDINGS
     u0 = x * c0 - y * s0
     v0 = x * s0 + y * c0
     u1 = x * c1 - y * s1

@@ -25,6 +25,7 @@ from ial.contractors.intervals.error_free import (
 )
 from ial.contractors.intervals.sets import unless
 from ial.contractors.kernels import kernel
+from ial.contractors.margins import ROOT, SERIES, SMALL, TANGENT
 from ial.contractors.rounding import down, up
 
 # The nearest doubles to π, π/2 and 2π all lie below the exact number; one bit step above lies beyond it.
@@ -33,6 +34,9 @@ TWO_PI_LOWER, TWO_PI_UPPER = 2.0 * PI_LOWER, 2.0 * PI_UPPER
 HALF_PI_LOWER, HALF_PI_UPPER = 0.5 * PI_LOWER, 0.5 * PI_UPPER
 
 LARGEST_ANGLE = 1e5  # beyond it, sine and cosine of an interval are [-1, 1]
+
+_LARGE, _SMALL = 2.0**500, 2.0**-400  # lengths beyond these are scaled, so that their squares are in range
+_IN_RANGE, _FAR_BELOW = 2.0**-475, 2.0**-200
 
 # π/2 as a sum of three doubles, right to 2^-141. The first has 33 bits, so that its product with a number of quarter turns is exact.
 _QUARTER_1, _QUARTER_2, _QUARTER_3 = 1.5707963267341256, 6.077100506506192e-11, 3.5215598651832e-27
@@ -141,7 +145,7 @@ def _tan(x):  # type: ignore[no-untyped-def]
     upper, upper_rest = (-cosine, -cosine_rest) if odd else (sine, sine_rest)
     lower, lower_rest = (sine, sine_rest) if odd else (cosine, cosine_rest)
     high, low = quotient(upper, upper_rest, lower, lower_rest)
-    bounds = enclose(high, low, 2.0**-53 * abs(high)) if abs(x) >= 2.0**-26 else enclose_odd(x, x * (x * x / 3.0), 2.0**-49, 1.0)
+    bounds = enclose(high, low, TANGENT * abs(high)) if abs(x) > SMALL else enclose_odd(x, x * (x * x / 3.0), SERIES, 1.0)
     return bounds[0], bounds[1], branch
 
 
@@ -257,7 +261,7 @@ def _length(x, y):  # type: ignore[no-untyped-def]
     and so within the error allowed for.
     """
     large, small = max(x, y), min(x, y)
-    exponent = -600.0 if large > 2.0**500 else 600.0 if large < 2.0**-400 else 0.0
+    exponent = -600.0 if large > _LARGE else 600.0 if large < _SMALL else 0.0
     near, far = scale(small, exponent), scale(large, exponent)
     p, p_rest = two_product(far, far)
     q, q_rest = two_product(near, near)
@@ -265,9 +269,9 @@ def _length(x, y):  # type: ignore[no-untyped-def]
     rest, lost = two_sum(p_rest, q_rest)
     low, also_lost = two_sum(low, rest)
     length, correction = root(*fast_two_sum(square, low))
-    certain = (small == 0.0) | ((near > 2.0**-475) & (near > far * 2.0**-200))  # that nothing underflowed, the correction included
+    certain = (small == 0.0) | ((near > _IN_RANGE) & (near > far * _FAR_BELOW))  # that nothing underflowed, the correction included
     exact = (lost == 0.0) & (also_lost == 0.0) & (correction == 0.0) & certain
-    error = 0.0 if exact else 2.0**-100 * length
+    error = 0.0 if exact else ROOT * length
     lower, upper = scale_outward(*enclose(length, correction, error), -exponent)
     return large if large == np.inf else max(lower, large), large if large == np.inf else upper
 

@@ -7,6 +7,8 @@ import numpy as np
 
 from ial.bouncing.ray_set import RaySet
 from ial.bouncing.walls import FloatArray, Walls
+from ial.contractors.expressions.functions import mul, sub
+from ial.contractors.intervals.trigonometric import TWO_PI_LOWER, TWO_PI_UPPER
 
 COARSEST, FINEST = 5, 16  # there are 2^level intervals of headings; the coarsest are narrow enough for `ray_shooting`
 _TWO_PI = 2.0 * np.pi
@@ -25,12 +27,12 @@ def _parts(walls: Walls, level: int) -> FloatArray:
 
 
 def _normal(states: RaySet) -> RaySet:
-    """Return the set with headings that begin in [0, 2π)."""
+    """Return the set with headings that begin in [0, 2π), or a rounding beside it."""
     turns = np.floor(states.lower[:, 1] / _TWO_PI)
     lower, upper = states.lower.copy(), states.upper.copy()
-    pad = 2.0**-50 * (8.0 + np.abs(turns)) * (turns != 0)  # the double 2π and the difference are rounded
-    lower[:, 1] -= turns * _TWO_PI + pad
-    upper[:, 1] -= turns * _TWO_PI - pad
+    whole = mul.bounds((turns, turns), (np.array(TWO_PI_LOWER), np.array(TWO_PI_UPPER)))
+    lower[:, 1] = sub.bounds((lower[:, 1], lower[:, 1]), whole)[0]
+    upper[:, 1] = sub.bounds((upper[:, 1], upper[:, 1]), whole)[1]
     return RaySet(states.walls, lower, upper, states.steps, states.arriving, states.reach)
 
 

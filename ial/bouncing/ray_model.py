@@ -18,6 +18,7 @@ from ial.contractors import cos, sin
 from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.intervals.trigonometric import TWO_PI_LOWER, TWO_PI_UPPER
+from ial.contractors.margins import ABOVE, BELOW
 from ial.contractors.rounding import check_rounding
 from ial.errors import ConfigError
 from ial.maps.environment import Environment
@@ -100,8 +101,9 @@ class RayModel(Model[RaySet, None, int]):
         self.bounds, self.most_pieces = bounds, most_pieces
         shorter, longer = Interval(step_m * (1 - bounds.step)), Interval(step_m * (1 + bounds.step))
         self._step = shorter.lower, longer.upper
-        self._turn = radians(bounce_deg - bounds.turn_deg, bounce_deg + bounds.turn_deg)
-        self._headings = [radians(low, min(high, low + _FULL_DEG)) for low, high in headings_deg]
+        turn = bounce_deg % _FULL_DEG  # whole turns would only be rounded
+        self._turn = radians(turn - bounds.turn_deg, turn + bounds.turn_deg)
+        self._headings = [radians(low % _FULL_DEG, low % _FULL_DEG + min(high - low, Fraction(_FULL_DEG))) for low, high in headings_deg]
         origin = self.walls.origin
         self._region = None
         if region is not None:
@@ -146,7 +148,7 @@ class RayModel(Model[RaySet, None, int]):
         """Return how far the robot has driven at least, when it bumps now, and at most, for each piece, in metres."""
         least = np.maximum(states.steps - self.bounds.count, 0).astype(np.float64) * self._step[0]
         most = (states.steps + (self.bounds.count + 1)).astype(np.float64) * self._step[1]
-        return least * (1.0 - 2.0**-50), most * (1.0 + 2.0**-50)
+        return least * BELOW, most * ABOVE
 
     def _stepped(self, states: RaySet) -> RaySet:
         more = RaySet(states.walls, states.lower, states.upper, (states.steps + 1).astype(np.int32), states.arriving, states.reach)
@@ -225,7 +227,7 @@ class RayModel(Model[RaySet, None, int]):
             raise ConfigError("the robot has not bumped yet, so it can be anywhere that its region allows; ask after the first bump")
         least = np.maximum(states.steps - self.bounds.count, 0) * self._step[0]
         most = np.minimum((states.steps + self.bounds.count) * self._step[1], states.reach)
-        moved = self._moved(states, least * (1.0 - 2.0**-50), np.maximum(most, least) * (1.0 + 2.0**-50))
+        moved = self._moved(states, least * BELOW, np.maximum(most, least) * ABOVE)
         shift = Boxes.of([Interval(self.walls.origin[0]), Interval(self.walls.origin[1])])
         there = Boxes(moved.lower[:, :2], moved.upper[:, :2]) + Boxes(
             np.repeat(shift.lower, len(states), axis=0), np.repeat(shift.upper, len(states), axis=0)

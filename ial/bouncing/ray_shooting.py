@@ -1,9 +1,9 @@
 """Shooting beams: every wall that a robot can bump into that starts somewhere on a piece of wall, in some heading of an interval.
 
 A *beam* holds all rays from the points of a piece of a wall in the headings of an interval. Numbers are computed to nearest and widened:
-lengths by `Walls.margin`, directions by the slant of their wall. The bounds behind that: every length here is a sum of at most eight
-products of a coordinate (rounded by half a unit in the last place) and a sine or cosine (wrong by less than a unit), and the margin is
-512 roundings of the largest coordinate. A quotient is widened by its own error once more. Nothing that the true robot can do is lost.
+lengths by `Walls.margin`, directions by the slant of their wall, angles, parts of walls and quotients by `margins.ROUNDINGS` of what they
+are made of. Every length here is a sum of at most eight products of a coordinate and a sine or cosine, each rounded. Nothing that the true
+robot can do is lost.
 
 A corner is *certainly* on one side of a beam if it is on that side of every ray. Between a corner on the right and one on the left, every
 ray crosses the chain of walls from one to the other, and none gets farther: that is how far a beam can reach.
@@ -13,11 +13,11 @@ import numpy as np
 
 from ial.contractors.intervals.trigonometric import sincos
 from ial.contractors.kernels import kernel
+from ial.contractors.margins import ABOVE, ROUNDINGS
 
 _X, _Y, _DX, _DY, _LENGTH, _ANGLE, _SLANT = range(7)
 _AFTER, _BEFORE, _BEND = range(3)
 _PI, _TWO_PI = np.pi, 2.0 * np.pi
-_BIT = 2.0**-48
 
 
 @kernel
@@ -34,7 +34,7 @@ def sort_out(wall, low, high, table):  # type: ignore[no-untyped-def]
     """
     slant = table[wall, _SLANT]
     shift = table[wall, _ANGLE] + _TWO_PI * np.floor((0.5 * (low + high) - table[wall, _ANGLE] + 0.5 * _PI) / _TWO_PI)
-    pad = slant + _BIT * (8.0 + abs(low) + abs(high))
+    pad = slant + ROUNDINGS * (8.0 + abs(low) + abs(high))
     free_low, free_high = max(low, shift - pad), min(high, shift + _PI + pad)
     middle = 0.5 * (low + high) - shift  # from −π/2 to 3π/2
     against_low = low if middle <= 0.5 * _PI else max(low, shift + _PI - pad)
@@ -58,9 +58,9 @@ def _measure(wall, first, last, low, high, table, links, margin, sides, fronts, 
         For each wall, the sine of the angle at which rays cross it, positive if they lead out of the free space: (lower, upper).
     """
     mid = 0.5 * (low + high)
-    width = max(high - mid, mid - low) + _BIT * (1.0 + abs(mid))
+    width = max(high - mid, mid - low) + ROUNDINGS * (1.0 + abs(mid))
     s, c = sincos(mid)
-    cosine, sine = max(1.0 - 0.5 * width * width - _BIT, 0.0), min(width, 1.0)
+    cosine, sine = max(1.0 - 0.5 * width * width - ROUNDINGS, 0.0), min(width, 1.0)
     x0, y0 = table[wall, _X] + first * table[wall, _DX], table[wall, _Y] + first * table[wall, _DY]
     x1, y1 = table[wall, _X] + last * table[wall, _DX], table[wall, _Y] + last * table[wall, _DY]
     for i in range(len(table)):
@@ -104,8 +104,8 @@ def _measure(wall, first, last, low, high, table, links, margin, sides, fronts, 
                 h_low, h_high = min(h_low, 0.0), min(h_high, 0.0)
             low_quotient = h_low / cut_high if h_low >= 0.0 else h_low / cut_low
             high_quotient = h_high / cut_low if h_high >= 0.0 else h_high / cut_high
-            near = max(near, low_quotient - _BIT * abs(low_quotient))
-            far = min(far, high_quotient + _BIT * abs(high_quotient))
+            near = max(near, low_quotient - ROUNDINGS * abs(low_quotient))
+            far = min(far, high_quotient + ROUNDINGS * abs(high_quotient))
         # A wall behind a convex corner of the wall itself lies on its free side, so rays cross it in front of their start.
         if (j == after and links[j, _BEND] == 1 and (leaving or forward)) or (k == wall and links[k, _BEND] == 1 and (leaving or backward)):
             near = max(near, 0.0)
@@ -155,7 +155,7 @@ def reaches(walls, lower, upper, back, table, links, margin):  # type: ignore[no
         low, high, against_low, against_high = sort_out(walls[row], lower[row, 1] + shift, upper[row, 1] + shift, table)
         found[row] = -1.0 if back[row] or against_low > against_high else 0.0
         if low <= high:
-            low, high = (low - _BIT * 8.0, high + _BIT * 8.0) if back[row] else (low, high)
+            low, high = (low - ROUNDINGS * 8.0, high + ROUNDINGS * 8.0) if back[row] else (low, high)
             _measure(walls[row], lower[row, 0], upper[row, 0], low, high, table, links, margin, sides, fronts, spans, cuts)
             found[row] = max(_reach(walls[row], links, sides, spans), 0.0)
     return found
@@ -169,7 +169,7 @@ def _hit_part(x, y, angle, j, table, margin):  # type: ignore[no-untyped-def]
     if across <= 4.0 * margin:
         return -np.inf, np.inf
     part = -(c * (table[j, _Y] - y) - s * (table[j, _X] - x)) / across
-    error = 1.01 * margin * (1.0 + abs(part)) / (across - margin) + _BIT * abs(part)
+    error = ABOVE * margin * (1.0 + abs(part)) / (across - margin) + ROUNDINGS * abs(part)
     return part - error, part + error
 
 
@@ -218,9 +218,9 @@ def shoot(begin, walls, lower, upper, nearest, farthest, table, links, margin, o
             p0 = (x0 - table[j, _X]) * ex + (y0 - table[j, _Y]) * ey
             p1 = (x1 - table[j, _X]) * ex + (y1 - table[j, _Y]) * ey
             mid = 0.5 * (low + high)
-            width = max(high - mid, mid - low) + _BIT * (1.0 + abs(mid))
+            width = max(high - mid, mid - low) + ROUNDINGS * (1.0 + abs(mid))
             s, c = sincos(mid)
-            cosine, sine = max(1.0 - 0.5 * width * width - _BIT, 0.0), min(width, 1.0)
+            cosine, sine = max(1.0 - 0.5 * width * width - ROUNDINGS, 0.0), min(width, 1.0)
             along, cut = c * ex + s * ey, c * ey - s * ex
             along_low, along_high = _turned(along, along, cosine, sine * abs(cut))
             along_low, along_high = along_low - slant, along_high + slant
@@ -229,8 +229,8 @@ def shoot(begin, walls, lower, upper, nearest, farthest, table, links, margin, o
             )
             moved_low = min(near * along_low, far * along_low) - slack
             moved_high = max(near * along_high, far * along_high) + slack
-            part_low = max(part_low, (min(p0, p1) + moved_low) / length - _BIT)
-            part_high = min(part_high, (max(p0, p1) + moved_high) / length + _BIT)
+            part_low = max(part_low, (min(p0, p1) + moved_low) / length - ROUNDINGS)
+            part_high = min(part_high, (max(p0, p1) + moved_high) / length + ROUNDINGS)
             if part_low <= part_high:
                 out_rows[count], out_walls[count] = row, j
                 out_lower[count, 0], out_upper[count, 0] = part_low, part_high

@@ -1,6 +1,5 @@
 """`Walls`: the boundary of an environment as arrays of doubles, with what rounding did to them as a bound."""
 
-import math
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -8,6 +7,8 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from ial.contractors.expressions.functions import atan2, hypot
+from ial.contractors.margins import ABOVE, ROUNDINGS
 from ial.errors import MapError
 from ial.maps.environment import Environment
 from ial.maps.ring import cross
@@ -16,8 +17,15 @@ FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
 
 MOST_WALLS = 4096
-_MARGIN = 2.0**-44
-"""What a length computed from coordinates may be wrong by, as a part of the scale: 512 roundings of numbers as large as the scale."""
+_MARGIN = 16.0 * ROUNDINGS
+"""What a length that `ray_shooting` computes may be wrong by, as a part of the scale.
+
+It is a sum of at most eight products of a sine or cosine and a coordinate, or a difference of two; coordinates and points on walls are
+themselves rounded: at most eight roundings in each, and eight in the sums, of numbers below twice the scale. That is a third of it.
+"""
+
+_LARGEST_SLANT = 2.0**-10
+"""Up to here the walls of an environment can be told apart: the shortest may be a part in 10¹¹ of the scale."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +60,7 @@ class Walls:
         Raises
         ------
         MapError
-            If there are more than 4096.
+            If there are more than 4096, or one is so short that rounding might turn it.
         """
         rings = [ring for polygon in environment.polygons for ring in polygon.rings]
         count = sum(map(len, rings))
@@ -73,25 +81,34 @@ class Walls:
             turns = [cross(ring[at - 1], ring[at], ring[(at + 1) % size]) for at in range(size)]  # type: ignore[arg-type]
             bend += [(turn > 0) - (turn < 0) for turn in turns]
         nexts, previous, bends = (np.array(each, dtype=np.int32) for each in (after, before, bend))
-        return cls(np.array(x), np.array(y), nexts, previous, bends, (x0, y0))
+        walls = cls(np.array(x), np.array(y), nexts, previous, bends, (x0, y0))
+        if not (walls.lengths.min() > 0.0 and walls.slants.max() <= _LARGEST_SLANT):
+            shortest = int(walls.lengths.argmin())
+            raise MapError(
+                f"a wall at ({float(x0) + walls.x[shortest]:g}, {float(y0) + walls.y[shortest]:g}) is {walls.lengths[shortest]:g} m long "
+                f"in an environment of {walls.scale:g} m; doubles hold no such difference: leave out corners that lie so close together"
+            )
+        return walls
 
     def __len__(self) -> int:
         return len(self.x)
 
     @cached_property
     def lengths(self) -> FloatArray:
-        """The length of each wall in metres, to nearest."""
-        return np.hypot(self.x[self.after] - self.x, self.y[self.after] - self.y)
+        """The length of each wall in metres, wrong by rounding."""
+        dx, dy = self.x[self.after] - self.x, self.y[self.after] - self.y
+        return hypot.bounds((dx, dx), (dy, dy))[1]
 
     @cached_property
     def angles(self) -> FloatArray:
-        """The direction in which each wall leads, in radians."""
-        return np.arctan2(self.y[self.after] - self.y, self.x[self.after] - self.x)
+        """The direction in which each wall leads, in radians, wrong by rounding."""
+        dx, dy = self.x[self.after] - self.x, self.y[self.after] - self.y
+        return atan2.bounds((dy, dy), (dx, dx))[0]
 
     @cached_property
     def scale(self) -> float:
         """A length that no distance between two points of the environment exceeds, in metres."""
-        return math.hypot(float(self.x.max()), float(self.y.max())) * (1.0 + 1e-12)
+        return float(hypot(float(self.x.max()), float(self.y.max())).upper) * ABOVE
 
     @property
     def margin(self) -> float:
@@ -100,8 +117,11 @@ class Walls:
 
     @cached_property
     def slants(self) -> FloatArray:
-        """What the direction of each wall may be wrong by, in radians: short walls are turned most by the rounding of their ends."""
-        return 2.0**-48 * (4.0 + self.scale / self.lengths)
+        """What the direction of each wall may be wrong by, in radians: short walls are turned most by the rounding of their ends.
+
+        Four coordinates and two differences are rounded, below the scale; then an angle below 4, or a quotient below 1.
+        """
+        return ROUNDINGS * (4.0 + self.scale / self.lengths)
 
     @cached_property
     def table(self) -> tuple[FloatArray, IntArray]:

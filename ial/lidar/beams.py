@@ -10,13 +10,13 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.boxes import FloatArray
+from ial.contractors.margins import ABOVE, ROUNDINGS
 from ial.datasets.scan import BeamClass, LaserScan, Mounting
 from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
+from ial.lidar.directions import unit_vectors
 from ial.lidar.rays import Rays
 from ial.lidar.share import Share, number_of
 from ial.lidar.sweep import sweep_boxes
-
-_ROUND_UP = 1.0 + 2.0**-40  # far above the rounding of the few operations that make a half-width
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,20 +100,22 @@ def select_beams(scan: LaserScan, bounds: Bounds, outliers: Share, max_beams: in
     radial = bounds.range_error_m + scan.range_slack()[used]
     reach = reading + radial
     turn, blur = paths.turns[used], paths.blurs[used]
-    rounding = 2.0**-48 * (reach + np.abs(paths.origins[used]).sum(axis=1))  # of the products and sums that made `ends`
+    rounding = ROUNDINGS * (reach + np.abs(paths.origins[used]).sum(axis=1))  # of `ends`: a cosine, a product and a sum
     errors = np.stack([radial + 0.5 * reach * turn**2, reach * turn], axis=1) + (blur + rounding)[:, None]
     rays = None
     if free_space is not None and free_space.use:
         among = _spread(np.arange(len(used)), free_space.max_rays)
-        alone = np.flatnonzero(classes == BeamClass.NO_RETURN) if free_space.no_return_m else np.empty(0, dtype=np.intp)
+        alone = np.flatnonzero(classes == BeamClass.NO_RETURN) if free_space.no_return else np.empty(0, dtype=np.intp)
         alone = _spread(alone, free_space.max_rays)
-        farthest = min(free_space.no_return_m, scan.range_max) - bounds.range_error_m
+        farthest = min(free_space.no_return_m, scan.range_max)
         rows = np.concatenate([used[among], alone])
-        lengths = np.concatenate([reading[among] - radial[among], np.full(len(alone), farthest)]) - free_space.margin_m - paths.blurs[rows]
+        reported = np.concatenate([reading[among], np.full(len(alone), farthest)])
+        wrong = np.concatenate([radial[among], np.full(len(alone), bounds.range_error_m)]) + free_space.margin_m + paths.blurs[rows]
+        lengths = (reported - wrong) - ROUNDINGS * (reported + wrong)  # what is left may be far below both
         numbers = np.concatenate([among, np.full(len(alone), -1)]).astype(np.int64)
-        margins = (free_space.margin_m + paths.blurs[rows]) * _ROUND_UP
-        rays = Rays(paths.origins[rows], paths.angles[rows], paths.turns[rows], lengths * (1.0 - 2.0**-40), numbers, margins)
-    beams = Beams(ends, directions, errors * _ROUND_UP, 0, rays)
+        margins = (free_space.margin_m + paths.blurs[rows]) * ABOVE
+        rays = Rays(paths.origins[rows], paths.angles[rows], paths.turns[rows], lengths, numbers, margins)
+    beams = Beams(ends, directions, errors * ABOVE, 0, rays)
     return dataclasses.replace(beams, outliers=number_of(outliers, len(beams)))
 
 
@@ -151,15 +153,17 @@ def _paths(scan: LaserScan, bounds: Bounds) -> _Paths:
         return _Paths(np.broadcast_to(laser, (len(scan), 2)), np.zeros(len(scan)), angle, turn, units)
     boxes = sweep_boxes(scan.sweep, bounds.motion, len(scan))
     middle = 0.5 * (boxes[:, :, 0] + boxes[:, :, 1])
-    off = np.maximum(boxes[:, :, 1] - middle, middle - boxes[:, :, 0]) * _ROUND_UP
+    off = np.maximum(boxes[:, :, 1] - middle, middle - boxes[:, :, 0]) * ABOVE
     off_rad = off[:, 2]
-    c, s = np.cos(middle[:, 2]), np.sin(middle[:, 2])
+    c, s = unit_vectors(middle[:, 2]).T
     origins = np.stack([c * laser[0] - s * laser[1], s * laser[0] + c * laser[1]], axis=1) + middle[:, :2]
-    # Each coordinate may be off; and the laser, at the end of an arm, by the error of the heading.
-    blurs = (np.hypot(off[:, 0], off[:, 1]) + math.hypot(*laser) * off_rad) * _ROUND_UP
+    # Each coordinate may be off; and the laser, at the end of an arm, by the error of the heading. Two products and their sum and that
+    # with the motion are rounded, and so is the difference of a bound and the middle.
+    rounding = ROUNDINGS * (np.abs(laser).sum() + np.abs(middle[:, :2]).sum(axis=1) + off.sum(axis=1))
+    blurs = (np.hypot(off[:, 0], off[:, 1]) + math.hypot(*laser) * off_rad + rounding) * ABOVE
     angle = angle + middle[:, 2]
-    turn = turn + off_rad + _angle_rounding(angle)
-    return _Paths(origins, blurs, angle, turn, np.stack([np.cos(angle), np.sin(angle)], axis=1))
+    turn = turn + (off_rad + _angle_rounding(angle)) * ABOVE
+    return _Paths(origins, blurs, angle, turn, unit_vectors(angle))
 
 
 def _spread(rows: npt.NDArray[np.intp], most: int) -> npt.NDArray[np.intp]:
@@ -174,9 +178,12 @@ def _directions(
     lower, upper = LaserScan(0, np.ones(count, np.float32), angle_min, increment, mounting=mounting).bearings()
     angle = mounting.yaw + 0.5 * (lower + upper)
     turn = bearing_error + 0.5 * (upper - lower) + _angle_rounding(angle)
-    return angle, turn, np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    return angle, turn, unit_vectors(angle)
 
 
 def _angle_rounding(angle: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """Return a bound of the rounding of the angle itself and of its sine and cosine, as an angle (rad)."""
-    return 2.0**-48 * (1.0 + np.abs(angle))
+    """Return a bound of the rounding of the angle itself and of its sine and cosine, as an angle (rad).
+
+    It is a sum of up to four angles, of which all but one are at most π: fifteen roundings at most.
+    """
+    return ROUNDINGS * (1.0 + np.abs(angle))

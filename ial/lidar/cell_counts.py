@@ -13,13 +13,14 @@ import numpy.typing as npt
 from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 from ial.lidar.beams import Beams
-from ial.lidar.end_points import MARGIN, relative_bounds
+from ial.lidar.end_points import relative_bounds
 from ial.lidar.lattice import Lattice, layer_edges
+from ial.lidar.margins import MOST_BEAMS
 from ial.lidar.tile_counts import count_tile, list_segments, place, working_space
 from ial.lidar.tiles import TILE_COLUMNS, TILE_ROWS, Tiles, WordArray
 from ial.maps.cell_index import BORDER, CellIndex
 
-LARGEST_COUNT = 1 << 14
+LARGEST_COUNT = 2 * MOST_BEAMS
 
 _LEVELS = 3  # blocks of 2³ layers: 11° with the default precision
 _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
@@ -150,11 +151,11 @@ def count_cells(
         For each cell that is left, a number that does not exceed the number of bad beams at any pose in it; int16 of shape (n, 16, 64).
     """
     kept, least = np.empty_like(tiles.words), np.empty((len(tiles.words), TILE_ROWS, TILE_COLUMNS), dtype=np.int16)
-    rows, columns = occupied.table.shape
     row_origin, column_origin = occupied.origin
-    # A part is a little wider than a cell, since its width has 24 bits: so much further right, at most, do its last columns lie.
-    farthest = max(rows + row_origin, columns + column_origin) + TILE_COLUMNS * lattice.parts
-    drift = farthest * (lattice.part_m / occupied.resolution - 1.0) + MARGIN
+    # A part is a little wider than a cell, since its width has 24 bits: so much further right, at most, do the last columns of the map lie.
+    # It is that of the whole map for all of its parts, so that they give the same answers. `MARGIN` covers what is rounded here.
+    farthest = max(occupied.whole) + TILE_COLUMNS * lattice.parts
+    drift = farthest * max(lattice.part_m / occupied.resolution - 1.0, 0.0)
     order = _spread_order(len(beams.ends))
     evidence = (beams.ends[order], beams.directions[order], beams.errors[order])
     grid = (occupied.resolution, drift, occupied.bordered, domain.bordered, row_origin, column_origin)

@@ -8,6 +8,7 @@ from typing import Literal
 
 from ial.datasets.motion import MotionBounds
 from ial.errors import ConfigError
+from ial.lidar.margins import MOST_BEAMS
 from ial.lidar.share import Share, share_of
 
 Domain = Literal["free", "free_or_unknown"]
@@ -95,11 +96,16 @@ class FreeSpace:
     max_rays: int = 60
     no_return_m: float = 0.0
 
+    @property
+    def no_return(self) -> bool:
+        """Whether beams without return are used."""
+        return self.use and self.no_return_m > 0.0
+
     def __post_init__(self) -> None:
         _check("free_space.margin_m", self.margin_m)
         _check("free_space.no_return_m", self.no_return_m)
-        if not isinstance(self.max_rays, int) or self.max_rays < 1:
-            raise ConfigError(f"free_space.max_rays is {self.max_rays!r}; give a whole number of at least 1")
+        if not isinstance(self.max_rays, int) or not 1 <= self.max_rays <= MOST_BEAMS:
+            raise ConfigError(f"free_space.max_rays is {self.max_rays!r}; give a whole number from 1 to {MOST_BEAMS}")
 
 
 @dataclass(frozen=True)
@@ -183,7 +189,8 @@ class LocalizerConfig:
         What follows a scan that fits nowhere in the prediction: `union` carries the prediction on beside the poses found on the whole map,
         and keeps the truth whichever of the last motion and the last scan broke its bound; `restart` (the paper's) trusts the scan alone.
     max_seconds
-        A limit on the time of one scan; None for none. An answer that reaches it is coarser, marked, and not reproducible.
+        A limit on the time of one scan; None for none. An answer that reaches it is coarser, marked, and not reproducible, nor need be
+        those of the scans behind it.
     """
 
     bounds: Bounds = field(default_factory=Bounds)
@@ -213,10 +220,10 @@ class LocalizerConfig:
                 also = ", or 'auto'" if name == "outliers" else ""
                 raise ConfigError(f"{name} is {value!r}; give a whole number of beams, or a fraction from 0.0 to 1.0{also}")
             object.__setattr__(self, name, share)
-        for name in ("max_boxes", "max_beams"):
-            value = getattr(self, name)
-            if not isinstance(value, int) or value < 1:
-                raise ConfigError(f"{name} is {value!r}; give a whole number of at least 1")
+        if not isinstance(self.max_boxes, int) or self.max_boxes < 1:
+            raise ConfigError(f"max_boxes is {self.max_boxes!r}; give a whole number of at least 1")
+        if not isinstance(self.max_beams, int) or not 1 <= self.max_beams <= MOST_BEAMS:
+            raise ConfigError(f"max_beams is {self.max_beams!r}; give a whole number from 1 to {MOST_BEAMS}")
         if isinstance(self.check_every, bool) or not isinstance(self.check_every, int) or self.check_every < 0:
             raise ConfigError(f"check_every is {self.check_every!r}; give a whole number, 0 for never")
         _check("robot_radius_m", self.robot_radius_m)

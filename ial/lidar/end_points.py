@@ -3,21 +3,10 @@
 import math
 
 from ial.contractors.intervals.rotation import turn_point
-from ial.contractors.intervals.trigonometric import sincos
+from ial.contractors.intervals.trigonometric import LARGEST_ANGLE, sincos
 from ial.contractors.kernels import kernel
-
-MARGIN = 2.0**-28
-"""Cells by which every relative end-point bound is widened.
-
-It covers the rounding of what follows: dividing by the resolution, adding the position of the robot, and comparing with cell boundaries.
-Coordinates stay below 2¹⁹ cells, so each of these operations is off by at most 2⁻³⁴ cells. At 5 cm the margin is 0.2 nanometres.
-"""
-
-NEAR = 2.0**16 + 2.0
-"""Cells from the corner of the map within which a robot may be; maps have at most 2¹⁶ cells a side."""
-
-REACH = 2.0 * NEAR
-"""Cells from the robot beyond which an end point is drawn in: from everywhere near it is outside the map either way."""
+from ial.contractors.margins import ABOVE
+from ial.lidar.margins import MARGIN, REACH
 
 
 @kernel
@@ -29,24 +18,26 @@ def _drawn_in(cells):  # type: ignore[no-untyped-def]
 def relative_bounds(theta_lower, theta_upper, ends, directions, errors, map_error, resolution, out):  # type: ignore[no-untyped-def]
     """Fill `out` with the bounds of each end point relative to the robot, in cells: x lower, y lower, x upper, y upper; shape (n, 4).
 
-    The distance that the map may be wrong is included.
+    The distance that the map may be wrong is included, and `margins.MARGIN`.
     """
-    whole = theta_upper - theta_lower >= 3.0
+    # `turn_point` takes arcs below π, and sines are known up to a largest angle; beyond, every heading may be meant.
+    whole = not (theta_upper - theta_lower < 3.0 and theta_lower >= -LARGEST_ANGLE and theta_upper <= LARGEST_ANGLE)
     s0, c0 = sincos(theta_lower)
     s1, c1 = sincos(theta_upper)
     for i in range(len(ends)):
         px, py = ends[i, 0], ends[i, 1]
         along, across = errors[i, 0], errors[i, 1]
         if whole:
-            radius = math.sqrt(px * px + py * py) * (1.0 + 2.0**-48) + along + across
+            radius = (math.sqrt(px * px + py * py) + along + across) * ABOVE
             xl, xu, yl, yu = -radius, radius, -radius, radius
         else:
             xl, xu, yl, yu = turn_point(px, py, s0, c0, s1, c1)
             dxl, dxu, dyl, dyu = turn_point(directions[i, 0], directions[i, 1], s0, c0, s1, c1)
             most_x = max(abs(dxl), abs(dxu))
             most_y = max(abs(dyl), abs(dyu))
-            wide_x = along * most_x + across * most_y
-            wide_y = along * most_y + across * most_x
+            # Where much is taken off a far end point, what is left may be small: these two are rounded up, and not left to the margin.
+            wide_x = (along * most_x + across * most_y) * ABOVE
+            wide_y = (along * most_y + across * most_x) * ABOVE
             xl -= wide_x
             xu += wide_x
             yl -= wide_y

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from ial.contractors.boxes import Boxes
+from ial.contractors.expressions.functions import hypot
 from ial.contractors.paving.clusters import cluster
 from ial.contractors.paving.limits import Limit
 from ial.lidar.config import LocalizedSize
@@ -148,12 +149,11 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True
 
 
 def radius(poses: PoseSet, pose: Pose, grid: OccupancyGrid) -> float:
-    """Return a distance (m) from a pose in the map frame that no position of a set exceeds."""
-    at = grid.pose_to_grid(pose)
-    x, y = np.maximum(np.abs(poses.boxes.lower[:, :2] - (at.x, at.y)), np.abs(poses.boxes.upper[:, :2] - (at.x, at.y))).T
-    # The pose was rounded twice between the frames, and the distance once, by units in the last place of the largest number that occurs.
-    largest = abs(pose.x) + abs(pose.y) + abs(grid.origin.x) + abs(grid.origin.y) + grid.width_m + grid.height_m
-    return float(np.hypot(x, y).max() + 2.0**-46 * largest)
+    """Return a distance (m) from a pose in the map frame that no position of a set exceeds, rounded up."""
+    at = grid.boxes_to_grid(Boxes.of([(value, value) for value in (pose.x, pose.y, pose.theta)]))
+    away = Boxes(poses.boxes.lower[:, :2], poses.boxes.upper[:, :2]) - Boxes(at.lower[:, :2], at.upper[:, :2])
+    x, y = zip(away.lower.T, away.upper.T, strict=True)
+    return float(hypot.bounds(x, y)[1].max())
 
 
 def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: bool, found: bool, symmetric: bool = False) -> Status:

@@ -17,18 +17,19 @@ from ial.contractors.groups import group_rows
 from ial.contractors.intervals.rotation import turn_point
 from ial.contractors.intervals.trigonometric import sincos
 from ial.contractors.kernels import kernel
+from ial.contractors.margins import ROUNDINGS
 from ial.contractors.threads import run
 from ial.lidar.beams import Beams
 from ial.lidar.bit_columns import BitColumns, read_bits
 from ial.lidar.corners import OFFSET, corners
-from ial.lidar.end_points import MARGIN, NEAR, relative_bounds
+from ial.lidar.end_points import relative_bounds
+from ial.lidar.margins import MARGIN, NEAR
 from ial.maps.cell_index import BORDER, CellIndex
 
 _STEEPEST = 0.55  # a ray runs along an axis if its cosine with it is above this at both ends of its interval
 _CHUNK = 16  # columns that are passed at once where the strip is free
 _WIDEST_TURN = 0.5  # radians; a slope has bounds only where no pole of the tangent lies between
 _WIDEST = 64  # rows of a strip: the bits of a word
-_SLACK = 2.0**-40  # far above the rounding of a slope, and of an angle in radians
 
 
 @kernel
@@ -126,7 +127,7 @@ def blocked(box, laser, ray, margin, table, upwards, rightwards):  # type: ignor
     laser
         Bounds ul, uu, vl, vu of the laser's position relative to it.
     ray
-        Cosine and sine at the lower and at the upper end of its direction in the map, and its length.
+        Cosine and sine at the lower and at the upper end of its direction in the map, each wrong by less than 2^-53, and its length.
     """
     c0, s0, c1, s1, length = ray
     margin += MARGIN
@@ -145,16 +146,17 @@ def blocked(box, laser, ray, margin, table, upwards, rightwards):  # type: ignor
     sign = 1 if a0 > 0.0 else -1
     if sign < 0:
         la_low, la_high = -la_high, -la_low
-    smallest = min(abs(a0), abs(a1))
-    wide = margin / (smallest - _SLACK)
+    # Cosines are below 1 and slopes below 2: an error of both, and a quotient of numbers above a half.
+    smallest = min(abs(a0), abs(a1)) - ROUNDINGS
+    wide = margin / smallest
     first_slope, second_slope = b0 / abs(a0), b1 / abs(a1)
     # Outside of the map nothing stands, so the walk may begin and end at its edges, however long the ray is.
     cells = table.shape[1] - 1 if along else table.shape[0] - 1
     lowest, highest = (0, cells - 1) if sign > 0 else (-cells, -1)
     first = max(int(math.ceil(la_high + margin)), lowest)
-    last = int(min(math.floor(la_low + length * (smallest - _SLACK) - margin) - 1.0, float(highest)))
-    slope_low = min(first_slope, second_slope) - _SLACK
-    slope_high = max(first_slope, second_slope) + _SLACK
+    last = int(min(math.floor(la_low + length * smallest - margin) - 1.0, float(highest)))
+    slope_low = min(first_slope, second_slope) - ROUNDINGS
+    slope_high = max(first_slope, second_slope) + ROUNDINGS
     lines = upwards if along else rightwards
     return _cut(la_low, la_high, lb_low - wide, lb_high + wide, slope_low, slope_high, first, last, sign, lines, (table, along))
 
@@ -186,10 +188,12 @@ def _block_rows(start, stop, order, lower, upper, parts, hits, rays, grid, least
                 ul, uu, vl, vu = turn_point(origins[i, 0], origins[i, 1], sl, cl, su, cu)
                 lasers[i, 0], lasers[i, 1] = ul / resolution - MARGIN, uu / resolution + MARGIN
                 lasers[i, 2], lasers[i, 3] = vl / resolution - MARGIN, vu / resolution + MARGIN
-                headings[i, 1], headings[i, 0] = sincos(theta_lower + angles[i] - turns[i] - _SLACK)
-                headings[i, 3], headings[i, 2] = sincos(theta_upper + angles[i] + turns[i] + _SLACK)
+                turn = turns[i] + ROUNDINGS * (abs(theta_lower) + abs(theta_upper) + abs(angles[i]) + turns[i])  # two sums
+                headings[i, 1], headings[i, 0] = sincos(theta_lower + angles[i] - turn)
+                headings[i, 3], headings[i, 2] = sincos(theta_upper + angles[i] + turn)
                 headings[i, 4] = lengths[i] / resolution - MARGIN
-                if theta_upper - theta_lower + 2.0 * turns[i] > _WIDEST_TURN:
+                near = min(lasers[i, 0], lasers[i, 2]) >= -NEAR and max(lasers[i, 1], lasers[i, 3]) <= NEAR
+                if not near or theta_upper - theta_lower + 2.0 * turn > _WIDEST_TURN:
                     headings[i, :4] = 0.0  # along no axis: such a ray is never found to be blocked
         xl, yl = lower[row, 0] / resolution - origin[1], lower[row, 1] / resolution - origin[0]
         xu, yu = upper[row, 0] / resolution - origin[1], upper[row, 1] / resolution - origin[0]

@@ -10,6 +10,9 @@ from ial.contractors.boxes import Boxes, FloatArray
 from ial.contractors.intervals.angle import wrap_angle
 from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.contractors.kernels import kernel
+from ial.contractors.margins import ABOVE
+from ial.errors import ConfigError
+from ial.lidar.margins import FITTING, MOST_PARTS
 from ial.lidar.tiles import IntArray, Tiles, filled_tiles, tiles_met
 
 _LARGEST_WORK = 1 << 22  # pairs of a box and a tile; beyond, a coarser lattice is taken
@@ -40,7 +43,7 @@ class Lattice:
     @property
     def widths(self) -> FloatArray:
         """Widths of a cell of the finest level, rounded up; float64 of shape (3,)."""
-        return np.array([self.position_m, self.position_m, 2.0 * math.pi / self.layers]) * (1.0 + 2.0**-20)
+        return np.array([self.position_m, self.position_m, 2.0 * math.pi / self.layers]) * FITTING
 
     def root(self, width_m: float, height_m: float) -> Boxes:
         """Return one box around ``[0, width] × [0, height]`` and all headings, whose repeated bisection meets the cells."""
@@ -96,10 +99,21 @@ def divide(resolution: float, position_m: float) -> tuple[int, int]:
 
     The second number is at least 2: a cell of the answer is kept if one of its parts may hold a consistent pose. Parts exclude more than
     whole cells do, while whole cells keep what belongs together connected.
+
+    Raises
+    ------
+    ConfigError
+        If a cell of the lattice would consist of more cells of the map than `margins.MOST_PARTS` along an axis.
     """
-    if 2.0 * resolution <= position_m * (1.0 + 1e-6):
-        return 1, math.floor(position_m / resolution * (1.0 + 1e-6))
-    return math.ceil(2.0 * resolution / position_m * (1.0 - 1e-6)), 2
+    if 2.0 * resolution > position_m * FITTING:
+        return math.ceil(2.0 * resolution / position_m / FITTING), 2
+    parts = math.floor(position_m / resolution * FITTING)
+    if parts > MOST_PARTS:
+        raise ConfigError(
+            f"precision.position_m is {position_m:g} m, {parts} cells of the map ({resolution:g} m each); give at most "
+            f"{MOST_PARTS * resolution:g} m, or a map with larger cells"
+        )
+    return 1, parts
 
 
 def _rounded_up(width: float) -> float:
@@ -128,7 +142,8 @@ def layer_edges(layers: int) -> FloatArray:
 def _cell_ranges(lower, upper, step, edges, ranges):  # type: ignore[no-untyped-def]
     """Fill `ranges` with the first and last cell of each box along x, y and θ; the θ cells are counted on beyond a turn.
 
-    Bounds are compared exactly with those of the cells. Only the part of an arc beyond π takes a margin, which covers the turn of 2π.
+    Bounds are compared exactly with those of the cells. Only for an arc beyond π is the last cell computed, rounded up: π, a sum, the width
+    and a quotient, and how far a bound of a cell is from where its number says.
     """
     layers = len(edges) - 1
     width = 2.0 * math.pi / layers
@@ -149,7 +164,7 @@ def _cell_ranges(lower, upper, step, edges, ranges):  # type: ignore[no-untyped-
         while first < layers - 1 and edges[first + 1] <= start:
             first += 1
         if stop > edges[layers]:
-            last = max(int(math.floor((stop + math.pi) / width + 1e-9)), layers)
+            last = max(int(math.floor((stop + math.pi) / width * ABOVE)), layers)
         else:
             last = min(max(int(math.floor((stop + math.pi) / width)), first), layers - 1)
             while edges[last + 1] < stop:

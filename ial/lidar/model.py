@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes
+from ial.contractors.margins import ABOVE
 from ial.contractors.paving.limits import Deadline
 from ial.contractors.paving.paver import pave
 from ial.contractors.paving.waiting import Order
@@ -52,6 +53,8 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
 
     Raises
     ------
+    ConfigError
+        If the precision is so fine, or so coarse, that the map's cells cannot be counted.
     MapError
         If the map has no occupied cell, or none where the robot may be.
     """
@@ -63,7 +66,15 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         self.config = config
         split, parts = divide(grid.resolution, config.precision.position_m)
         self.lattice = Lattice(parts * (grid.resolution / split), config.precision.heading_rad, parts)
-        self.sheets = Sheets(grid, allowed, split, self.lattice, radius_m=config.robot_radius_m, free_space=config.free_space.use)
+        self.sheets = Sheets(
+            grid,
+            allowed,
+            split,
+            self.lattice,
+            radius_m=config.robot_radius_m,
+            free_space=config.free_space.use,
+            position_m=config.precision.position_m,
+        )
         self._universe = PoseSet(self.sheets.universe)
         most = _LAID_OUT_CELLS if config.max_seconds is None else max(64, int(_CELLS_PER_S * config.max_seconds))
         self._affordable = min(most, _LAID_OUT_CELLS, config.max_boxes)
@@ -111,7 +122,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
 
     def _within_map(self, boxes: Boxes) -> Boxes:
         """Return the boxes cut to the extent of the map, which holds the domain; those outside are dropped."""
-        edge = np.array([self.grid.width_m, self.grid.height_m]) * (1.0 + 2.0**-40)
+        edge = np.array([self.grid.width_m, self.grid.height_m]) * ABOVE
         lower, upper = boxes.lower.copy(), boxes.upper.copy()
         lower[:, :2] = np.maximum(lower[:, :2], 0.0)
         upper[:, :2] = np.minimum(upper[:, :2], edge)

@@ -13,13 +13,13 @@ def narrow(xl, yl, xu, yu, bounds, q, table, low, high):  # type: ignore[no-unty
     """Return the hull (xl, yl, xu, yu) of the positions of a box that at least n − q beams allow; all in cells.
 
     Each beam's rectangle of end points is contracted to the hull of its occupied cells; going back along the beam leaves an interval of
-    positions along each axis. Along each axis the relaxed intersection of these is taken. The margin in `bounds` (see `end_points.MARGIN`)
+    positions along each axis. Along each axis the relaxed intersection of these is taken. The margin in `bounds` (see `margins.MARGIN`)
     covers the rounding here.
 
     Parameters
     ----------
     xl, yl, xu, yu
-        The box, less than `end_points.NEAR` from the corner of the map.
+        The box, less than `margins.NEAR` from the corner of the map.
     bounds
         Relative end points as `end_points.relative_bounds` writes them, float64 of shape (n, 4).
     q

@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.boxes import FloatArray
+from ial.contractors.margins import ABOVE
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,3 +36,10 @@ class Rays:
 
     def __len__(self) -> int:
         return len(self.angles)
+
+    @property
+    def reach_m(self) -> float:
+        """How far from the robot something that a ray meets can be, at most (m): beside the end of the ray's strip; 0 without rays."""
+        # A strip is looked at along an axis of the map that it is within 57° of: there it is less than twice as wide.
+        reaches = np.hypot(*self.origins.T) + self.lengths + 2.0 * self.margins
+        return float(reaches.max(initial=0.0) * ABOVE)

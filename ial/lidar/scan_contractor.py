@@ -12,7 +12,8 @@ from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 from ial.lidar.beams import Beams
 from ial.lidar.corners import OFFSET, corners
-from ial.lidar.end_points import NEAR, relative_bounds
+from ial.lidar.end_points import relative_bounds
+from ial.lidar.margins import NEAR
 from ial.lidar.narrowing import narrow
 from ial.maps.cell_index import BORDER, CellIndex
 

@@ -8,6 +8,7 @@ import math
 from collections import OrderedDict
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import NoReturn
 
 import numpy as np
 import numpy.typing as npt
@@ -15,19 +16,21 @@ from scipy import ndimage
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.trigonometric import PI_UPPER
-from ial.errors import MapError
+from ial.contractors.margins import ABOVE
+from ial.errors import ConfigError, MapError
 from ial.lidar.beams import Beams
 from ial.lidar.bit_columns import BitColumns
 from ial.lidar.lattice import Lattice
+from ial.lidar.margins import MOST_CELLS
 from ial.lidar.tiles import TILE_COLUMNS
 from ial.maps.cell_index import CellIndex
-from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
+from ial.maps.occupancy_grid import LARGEST_AREA, LARGEST_SIDE, OCCUPIED, OccupancyGrid
 
-_ONE_SHEET = 1 << 26  # cells: a map with as many or fewer is one sheet (400 × 400 m at 5 cm)
+_ONE_SHEET = 1 << 26  # cells: a map with as many or fewer is one sheet (400 × 400 m at 5 cm), unless one of its sides is too long
 _SIDE = 1 << 11  # cells along a side of a core, in larger maps
 _KEPT = 1 << 26  # cells of the sheets that are kept, and at least
 _FEWEST_KEPT = 4  # sheets, which meet in a corner
-_ROUND_UP = 1.0 + 2.0**-40
+_AROUND = 2  # cells of the map around what a sheet must hold: one that is cut by its border, and one for what is rounded
 
 MaskArray = npt.NDArray[np.bool_]
 Key = tuple[int, int]
@@ -69,30 +72,43 @@ class Sheets:
         The base is never nearer to an occupied cell than this.
     free_space
         Whether beams are looked along.
+    position_m
+        The precision that was asked for, to be named where it is too fine; by default the width of the lattice's cells.
 
     Raises
     ------
+    ConfigError
+        If the map, or the sheet around a robot of that radius, consists of more parts than can be counted.
     MapError
         If the robot fits nowhere.
     """
 
     def __init__(
-        self, grid: OccupancyGrid, allowed: tuple[int, ...], split: int, lattice: Lattice, *, radius_m: float = 0.0, free_space: bool = True
+        self,
+        grid: OccupancyGrid,
+        allowed: tuple[int, ...],
+        split: int,
+        lattice: Lattice,
+        *,
+        radius_m: float = 0.0,
+        free_space: bool = True,
+        position_m: float | None = None,
     ) -> None:
         self._grid = grid
         self._allowed = allowed
         self._split = split
         self._radius_m = radius_m
         self._free_space = free_space
+        self._position_m = position_m or lattice.position_m
         self._made: OrderedDict[Key, Sheet] = OrderedDict()
         self.resolution = grid.resolution / split
-        self._margin = 0  # cells of the map
+        self._margin = math.ceil(radius_m / grid.resolution * ABOVE)  # cells of the map around a core
         self._cells = 1 << max(int(math.log2(_SIDE / lattice.parts)), int(math.log2(TILE_COLUMNS)))
         self._side_m = self._cells * lattice.position_m
-        one = grid.rows * grid.columns * split**2 <= _ONE_SHEET
-        self._rows, self._columns = (
-            (1, 1) if one else (math.ceil(size / self._side_m * _ROUND_UP) for size in (grid.height_m, grid.width_m))
-        )
+        one = grid.rows * grid.columns * split**2 <= _ONE_SHEET and split * max(grid.rows, grid.columns) <= LARGEST_SIDE
+        self._rows, self._columns = (1, 1) if one else (math.ceil(size / self._side_m * ABOVE) for size in (grid.height_m, grid.width_m))
+        if not self._countable(split, self._margin):
+            self._refuse("the map has too many of these parts", self._margin)
         self._root = lattice.root(grid.width_m, grid.height_m)
         if radius_m and not any(self._roomy(*self._window((row, column))).any() for row, column in np.ndindex(self._rows, self._columns)):
             raise MapError(f"a robot with a radius of {radius_m:g} m fits nowhere in this map; give a smaller robot_radius_m")
@@ -110,14 +126,46 @@ class Sheets:
         return Boxes.concatenate([self._core((row, column)) for row, column in np.ndindex(self._rows, self._columns)])
 
     def reach(self, beams: Beams, map_error_m: float) -> None:
-        """See to it that the tables of every sheet hold all obstacles that the beams of a scan can end at."""
+        """See to it that the tables of every sheet hold all obstacles that the beams of a scan can end at or be blocked by.
+
+        Raises
+        ------
+        ConfigError
+            If they reach so far that a sheet would consist of too many parts.
+        """
         if self.one:
             return
         far = (np.hypot(*beams.ends.T) + beams.errors.sum(axis=1)).max(initial=0.0) + map_error_m
-        needed = math.ceil(far / self._grid.resolution * _ROUND_UP) + 2
-        if needed > self._margin:
-            self._margin = 1 << math.ceil(math.log2(needed))  # in a few steps at most, since the sheets are made anew
-            self._made.clear()
+        far = max(far, 0.0 if beams.rays is None else beams.rays.reach_m)
+        needed = math.ceil(far / self._grid.resolution * ABOVE)
+        if needed <= self._margin:
+            return
+        wider = 1 << (needed - 1).bit_length()  # in a few steps at most, since the sheets are made anew
+        self._margin = wider if self._countable(self._split, wider) else needed
+        if not self._countable(self._split, needed):
+            self._refuse(f"beams of this scan reach {far:.3g} m, and all that is nearer is looked up at once", needed)
+        self._made.clear()
+
+    def _countable(self, split: int, margin: int) -> bool:
+        """Return whether the tables of the map, and those of a sheet with a margin, have no more cells than can be counted.
+
+        It is a question about the map's cells, each split into so many parts along an axis; they are always countable unsplit.
+        """
+        sides = []
+        for cells in (self._grid.rows, self._grid.columns):
+            core = cells if self.one else math.ceil(max(_SIDE, self._cells * 2) / split) + 1
+            sides.append(split * min(cells, core + 2 * (margin + _AROUND)))
+        small = max(sides) <= LARGEST_SIDE and math.prod(sides) <= LARGEST_AREA
+        return split == 1 or (small and split * max(self._grid.rows, self._grid.columns) <= MOST_CELLS)
+
+    def _refuse(self, why: str, margin: int) -> NoReturn:
+        grid, split = self._grid, self._split
+        fewer = next(number for number in range(min(split, LARGEST_SIDE), 0, -1) if self._countable(number, margin))
+        raise ConfigError(
+            f"precision.position_m is {self._position_m:g} m, so the map's {grid.columns} × {grid.rows} cells of {grid.resolution:g} m are "
+            f"divided into {split} × {split} parts each, and {why}; give a precision.position_m of at least "
+            f"{_rounded_up(2.0 * grid.resolution / fewer):g} m, or larger cells"
+        )
 
     def parts(self, boxes: Boxes) -> Iterator[tuple[Key, npt.NDArray[np.intp], Boxes]]:
         """Yield the key of each sheet whose core some boxes meet, the rows of these, and the boxes cut to the core.
@@ -168,7 +216,7 @@ class Sheets:
         """Return which cells of the map the tables of a sheet hold."""
         if self.one:
             return slice(0, self._grid.rows), slice(0, self._grid.columns)
-        margin = max(self._margin, math.ceil(self._radius_m / self._grid.resolution)) + 2
+        margin = self._margin + _AROUND
         window = []
         for number, cells in zip(key, (self._grid.rows, self._grid.columns), strict=True):
             first, behind = (edge * self._side_m / self._grid.resolution for edge in (number, number + 1))
@@ -188,9 +236,10 @@ class Sheets:
         origin = (rows.start * self._split, columns.start * self._split)
         occupied = self._divided(self._grid.cells[rows, columns] == OCCUPIED)
         domain = self._divided(self._roomy(rows, columns))
+        whole = (self._grid.rows * self._split, self._grid.columns * self._split)
         return Sheet(
-            CellIndex(occupied, self.resolution, origin=origin),
-            CellIndex(domain, self.resolution, compact=True, origin=origin),
+            CellIndex(occupied, self.resolution, origin=origin, whole=whole),
+            CellIndex(domain, self.resolution, compact=True, origin=origin, whole=whole),
             BitColumns(occupied) if self._free_space else None,
         )
 
@@ -207,5 +256,11 @@ class Sheets:
         obstacles = cells == OCCUPIED
         if not self._radius_m or not obstacles.any():
             return allowed
-        distance = ndimage.distance_transform_edt(~obstacles) * (self._grid.resolution * _ROUND_UP)
+        distance = ndimage.distance_transform_edt(~obstacles) * (self._grid.resolution * ABOVE)
         return np.asarray(allowed & (distance >= self._radius_m))
+
+
+def _rounded_up(value: float) -> float:
+    """Return a number of three digits that is not below a positive one."""
+    digits = 2 - math.floor(math.log10(value))
+    return math.ceil(value * 10.0**digits) / 10.0**digits

@@ -15,8 +15,9 @@ from ial.contractors.paving.clusters import cluster
 from ial.contractors.threads import run
 from ial.lidar.beams import Beams
 from ial.lidar.corners import OFFSET
-from ial.lidar.end_points import NEAR, relative_bounds
+from ial.lidar.end_points import relative_bounds
 from ial.lidar.lattice import Lattice
+from ial.lidar.margins import NEAR
 from ial.lidar.outer_faces import outer_faces
 from ial.lidar.scan_contractor import fits
 from ial.lidar.sheets import Sheets

@@ -4,8 +4,6 @@ This begins the slow, obvious twin of the localizer's test. It follows docs/guar
 """
 
 import functools
-import itertools
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +11,7 @@ import numpy.typing as npt
 
 from ial.datasets.scan import LaserScan
 from ial.lidar.config import Bounds, LocalizerConfig
+from ial.study.possible_motions import possible_motions
 
 _MOST_TURNS = 500  # to each side; an endless beam is not worth more
 
@@ -34,9 +33,9 @@ class UsedBeams:
         The direction of each beam in the base frame at the time of the beam (rad), float64 of shape (n,).
     laser
         Position of the laser in the base frame (m), float64 of shape (2,).
-    moves, move_errors
-        How the base has moved until each beam, (x, y, θ) in its frame at the stamp, and by how much that may be wrong; float64 of
-        shape (n, 3). Zeros where no motion during the scan is taken out.
+    moves
+        How the base may have moved until each beam, (x, y, θ) in its frame at the stamp, what was recorded first; float64 of shape
+        (n, m, 3). Zeros, m = 1, where no motion during the scan is taken out.
     rays, lengths
         The rows of the beams that are looked along, shape (rays,), and how far nothing stands along each (m).
     bounds
@@ -50,7 +49,6 @@ class UsedBeams:
     bearings: FloatArray
     laser: FloatArray
     moves: FloatArray
-    move_errors: FloatArray
     rays: IndexArray
     lengths: FloatArray
     bounds: Bounds
@@ -73,14 +71,12 @@ class UsedBeams:
         numbers = np.concatenate([hits, alone])
         farthest = np.full(len(alone), min(free.no_return_m, scan.range_max))
         turned = scan.angle_min + numbers * scan.angle_increment
-        moves, move_errors = _moves(scan, numbers, config)
         return cls(
             numbers=numbers,
             readings=ranges[hits],
             bearings=scan.mounting.yaw + (-turned if scan.mounting.upside_down else turned),
             laser=np.array([scan.mounting.x, scan.mounting.y]),
-            moves=moves,
-            move_errors=move_errors,
+            moves=_moves(scan, numbers, config),
             rays=np.concatenate([rays, len(hits) + np.arange(len(alone))]),
             lengths=np.concatenate([ranges[hits][rays], farthest]) - bounds.range_error_m - free.margin_m,
             bounds=bounds,
@@ -98,8 +94,7 @@ class UsedBeams:
     def seen(self, turns: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return where beams may have begun, and which way they may have gone, in the base frame at the stamp.
 
-        What belongs together is together: a motion until the beam, from where the laser was then, and which way it looked. Of the motions
-        that are possible, what was recorded and the corners of its box are taken.
+        What belongs together is together: a motion until the beam, from where the laser was then, and which way it looked.
 
         Parameters
         ----------
@@ -109,16 +104,14 @@ class UsedBeams:
         Returns
         -------
         origins, angles
-            float64 of shape (n, m · k, 2) and (n, m · k); m is 1 where no motion is taken out, or it is exact, else 9. The first k are
-            those of the recorded motion.
+            float64 of shape (n, m · k, 2) and (n, m · k). The first k are those of the recorded motion.
         """
-        corners = [(0.0, 0.0, 0.0), *(itertools.product((-1.0, 1.0), repeat=3) if self.move_errors.any() else ())]
-        moves = self.moves[:, None] + self.move_errors[:, None] * np.array(corners)
+        moves = self.moves
         cos, sin = np.cos(moves[..., 2]), np.sin(moves[..., 2])
         x, y = self.laser
         origins = moves[..., :2] + np.stack([cos * x - sin * y, sin * x + cos * y], axis=-1)
         angles = moves[..., 2, None] + self.bearings[:, None, None] + self.bounds.bearing_error_rad * turns
-        count = len(corners) * len(turns)
+        count = moves.shape[1] * len(turns)
         return np.repeat(origins, len(turns), axis=1), angles.reshape(len(self), count)
 
     @functools.cached_property
@@ -157,13 +150,8 @@ def spread(rows: IndexArray, most: int) -> IndexArray:
     return rows[[i * len(rows) // most for i in range(most)]]
 
 
-def _moves(scan: LaserScan, numbers: IndexArray, config: LocalizerConfig) -> tuple[FloatArray, FloatArray]:
-    """Return how the base has moved until each beam, (x, y, θ), and by how much that may be wrong."""
+def _moves(scan: LaserScan, numbers: IndexArray, config: LocalizerConfig) -> FloatArray:
+    """Return how the base may have moved until each beam, (x, y, θ), what was recorded first."""
     if not config.deskew or scan.sweep is None or len(scan) < 2:
-        return np.zeros((len(numbers), 3)), np.zeros((len(numbers), 3))
-    share = numbers[:, None] / (len(scan) - 1)
-    way, turn = math.hypot(scan.sweep.x, scan.sweep.y), abs(scan.sweep.theta)
-    metres, radians = (
-        part.per_metre * way + part.per_radian * turn for part in (config.bounds.motion.translation, config.bounds.motion.rotation)
-    )
-    return share * [scan.sweep.x, scan.sweep.y, scan.sweep.theta], share * [metres, metres, radians]
+        return np.zeros((len(numbers), 1, 3))
+    return possible_motions(scan.sweep, config.bounds.motion, numbers / (len(scan) - 1))

@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 
 from ial.contractors.boxes import FloatArray
 from ial.contractors.intervals.trigonometric import PI_UPPER
-from ial.lidar.end_points import MARGIN, NEAR, REACH, relative_bounds
+from ial.lidar.end_points import relative_bounds
+from ial.lidar.margins import MARGIN, NEAR, REACH
 
 DIGITS = 50
 ROUNDING = 2.0**-33  # cells, twice what one later operation may round off

@@ -175,6 +175,9 @@ def test_outer_faces_are_moved_to_the_outermost_pieces_that_fit() -> None:
         rows = np.array(sorted(left), dtype=int)
         if len(rows) and len(cluster(Boxes(lower[rows], upper[rows]), circular=(2,))) > 1:
             torn += 1
+            assert kept[rows].all()
+            assert (cut.lower[rows] <= lower[rows]).all()
+            assert (cut.upper[rows] >= upper[rows]).all()
             assert len(cluster(cut[kept], circular=(2,))) == 1
             hulls = [cluster(boxes, circular=(2,)).hulls.hull() for boxes in (Boxes(lower[rows], upper[rows]), cut[kept])]
             np.testing.assert_array_equal(hulls[0].lower[:, :2], hulls[1].lower[:, :2])

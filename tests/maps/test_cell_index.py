@@ -11,9 +11,10 @@ from hypothesis import strategies as st
 
 from ial.contractors import threads
 from ial.contractors.boxes import Boxes
+from ial.contractors.margins import ROUNDINGS
 from ial.errors import MapError
 from ial.maps.cell_contractor import CellContractor
-from ial.maps.cell_index import SLACK, CellIndex, count, meets
+from ial.maps.cell_index import CellIndex, count, meets
 from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
 
 RESOLUTIONS = (0.05, 0.1, 0.03, 0.02, float(np.float32(0.05)), 1 / 3, 0.5)
@@ -65,7 +66,7 @@ def test_meets_is_never_wrongly_false_and_wrongly_true_only_within_the_slack(sce
     if exact_hull(mask, resolution, box) is not None:
         assert found
     elif found:
-        assert exact_hull(mask, resolution, box, slack=Fraction(2 * SLACK * resolution)) is not None
+        assert exact_hull(mask, resolution, box, slack=Fraction(9 * ROUNDINGS * resolution)) is not None
 
 
 @settings(max_examples=600)

@@ -9,10 +9,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ial.datasets.motion import ErrorBound, MotionBounds
+from ial.datasets.odometry import Odometry
+from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.scan import LaserScan, Mounting
 from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
 from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.pose import Pose
+
+
+def swept(*poses: Pose) -> OdometryPath:
+    """Return the odometry of a robot that began at the origin, one message a second."""
+    return OdometryPath.of((10**9 * number, Odometry.of(pose)) for number, pose in enumerate((Pose(), *poses)))
 
 
 @dataclass(frozen=True)
@@ -31,7 +38,7 @@ class Case:
         cells = np.where(random.random((rows, columns)) < random.choice([0.02, 0.15]), OCCUPIED, FREE).astype(np.uint8)
         cells[random.integers(rows), random.integers(columns)] = OCCUPIED
         resolution = float(random.choice([0.05, 0.1, 1.0 / 3.0]))
-        motion = MotionBounds(ErrorBound(1.0, 0.2, 0.0), ErrorBound(1.0, 0.0, 0.1))
+        motion = MotionBounds(ErrorBound(per_metre=0.2, per_scan=1.0), ErrorBound(per_radian=0.1, per_scan=1.0))
         errors = random.uniform(0.0, [0.2, 0.05, 0.1]) * random.integers(0, 2, 3)
         free = FreeSpace(True, float(random.choice([0.0, 0.02, 0.15])), int(random.integers(1, 9)), float(random.choice([0.0, 2.0])))
         config = LocalizerConfig(
@@ -45,7 +52,7 @@ class Case:
             float(random.uniform(-3.0, 3.0)),
             float(random.choice([-0.5, 0.3])),
             mounting=Mounting(*random.uniform(-0.3, 0.3, 2).tolist(), float(random.uniform(-3.0, 3.0)), bool(random.integers(2))),
-            sweep=Pose(*random.normal(0.0, 0.2, 3).tolist()) if random.integers(2) else None,
+            sweep=swept(Pose(*random.normal(0.0, 0.2, 3).tolist())) if random.integers(2) else None,
         )
         at = random.uniform(-0.2, 1.2, 2) * [columns, rows] * resolution
         case = cls(OccupancyGrid(cells, resolution), config, scan, (*at.tolist(), float(random.uniform(-4.0, 4.0))))
@@ -77,7 +84,7 @@ class Case:
         base, turned = complex(*self.pose[:2]), cmath.exp(1j * self.pose[2])
         sweep = scan.sweep if self.config.deskew and len(scan) > 1 else None
         share = 0.0 if sweep is None else beam / (len(scan) - 1)
-        along = Pose() if sweep is None else sweep
+        along = Pose() if sweep is None else sweep.last.pose
         way, twist = abs(complex(along.x, along.y)), abs(along.theta)
         off_m, off_rad = share * bounds.motion.translation.per_metre * way, share * bounds.motion.rotation.per_radian * twist
         aside = [0.0] if share == 0.0 else np.linspace(-1.0, 1.0, motions).tolist()

@@ -27,7 +27,8 @@ def test_good_beams_are_those_with_a_good_point() -> None:
             points = [laser + along * each for laser, along in case.rays(int(beams.numbers[i]), SAMPLES) for each in readings]
             reached = min(map(case.distance, points))
             apart = 2.0 * bounds.range_error_m / (SAMPLES - 1) + 2.0 * bounds.bearing_error_rad * (reading + 0.2) / (SAMPLES - 1)
-            moved = 0.0 if len(points) <= SAMPLES**2 else 2.0 * float(np.hypot(*beams.move_errors[i, :2]) + 5.0 * beams.move_errors[i, 2])
+            x, y, theta = np.ptp(beams.moves[i], axis=0).tolist()
+            moved = math.hypot(x, y) + 5.0 * theta
             if good[i]:
                 assert reached <= bounds.map_error_m + 0.5 * apart + moved + 1e-9, (seed, i)
                 counts[0] += 1

@@ -21,8 +21,8 @@ from ial.maps.floor_plan import floor_plan
 from ial.study.containment import Containment
 
 ROOT = Path(__file__).resolve().parents[2]
-TWIN = ("used_beams", "obstacles", "open_strips", "good_beams", "blocked_rays", "domain")
-RECORDS = {"ial.datasets.scan", "ial.lidar.config", "ial.maps.occupancy_grid"}
+TWIN = ("used_beams", "obstacles", "open_strips", "good_beams", "blocked_rays", "domain", "possible_motions")
+RECORDS = {"ial.datasets.motion", "ial.datasets.odometry_path", "ial.datasets.scan", "ial.lidar.config", "ial.maps.occupancy_grid"}
 MOTION = MotionBounds(ErrorBound(0.05), ErrorBound(0.05))
 
 

@@ -13,6 +13,7 @@ from ial.datasets.scan import LaserScan, Mounting
 from ial.lidar.config import Bounds, FreeSpace, LidarBounds, LocalizerConfig
 from ial.pose import Pose
 from ial.study.used_beams import UsedBeams, in_grid, spread
+from tests.study.scans import swept
 
 NAN, INF = math.nan, math.inf
 
@@ -71,10 +72,10 @@ def test_a_beam_is_seen_from_its_mounting(upside_down: bool, increment: float) -
 
 
 def test_the_motion_during_a_scan_is_taken_out_where_that_is_wanted() -> None:
-    """The laser of each beam stands where the base was then, and the error is that share of what the bounds say without their base."""
-    motion = MotionBounds(ErrorBound(9.0, 0.1, 0.2), ErrorBound(9.0, 0.01, 0.03))
+    """The laser of each beam stands where the base was then, and the error is that share of what the bounds say but for the scan's part."""
+    motion = MotionBounds(ErrorBound(0.02, 0.1, 0.2, 0.01, 9.0), ErrorBound(0.001, 0.01, 0.03, 0.0, 9.0))
     config = LocalizerConfig(bounds=Bounds(0.0, 0.0, 0.0, motion), deskew=True)
-    scan = {"mounting": Mounting(0.5, 0.25, 0.3), "sweep": Pose(0.3, -0.4, 0.2)}
+    scan = {"mounting": Mounting(0.5, 0.25, 0.3), "sweep": swept(Pose(0.3, -0.4, 0.2))}
     ranges = [1.0, NAN, 2.0, 1.5, 3.0]
     beams = used(ranges, config, **scan)
     for i, number in enumerate(beams.numbers.tolist()):
@@ -83,10 +84,10 @@ def test_the_motion_during_a_scan_is_taken_out_where_that_is_wanted() -> None:
         start = share * complex(0.3, -0.4) + turned * complex(0.5, 0.25)
         end = start + turned * cmath.rect(ranges[number], 0.3 - 0.5 + 0.25 * number)
         assert beams.ends[i] == pytest.approx([end.real, end.imag], abs=1e-12)
-        assert beams.move_errors[i] == pytest.approx([share * 0.09, share * 0.09, share * 0.011], abs=1e-15)
+        assert np.ptp(beams.moves[i], axis=0) == pytest.approx([2.0 * share * 0.12, 2.0 * share * 0.12, 2.0 * share * 0.012], abs=1e-12)
     origins, angles = beams.seen(np.array([0.0]))
     assert origins.shape == (4, 9, 2)
-    assert np.ptp(angles, axis=1) == pytest.approx(2.0 * beams.move_errors[:, 2])
+    assert np.ptp(angles, axis=1) == pytest.approx(np.ptp(beams.moves[:, :, 2], axis=1))
     still = used(ranges, replace(config, deskew=False), **scan)
     assert not still.moves.any()
     assert still.seen(np.zeros(1))[0].shape == (4, 1, 2)
