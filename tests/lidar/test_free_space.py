@@ -183,3 +183,24 @@ def test_a_ray_ends_before_the_wall_by_the_error_and_by_the_margin(
     box = Boxes.of([(2.0, 2.0), (6.0, 6.0), (0.0, 1e-9)])
     found = count_blocked(box, np.zeros(1, np.int16), beams, 2, CellIndex(wall, 0.05), BitColumns(wall), 0.0)
     assert found.tolist() == [count]
+
+
+@pytest.mark.parametrize("bearing", [0.0, 1.6, -2.5])
+@pytest.mark.parametrize("aside", [-0.08, 0.08])
+def test_a_ray_that_passes_a_gap_at_some_bearing_or_heading_is_not_blocked(bearing: float, aside: float) -> None:
+    """A wall 4 m away, all around, with a gap at an angle that only the error of the bearing, or the width of the box, reaches."""
+    rows, columns = np.mgrid[0:240, 0:240] - 119.5
+    turn = np.angle(np.exp(1j * (np.arctan2(rows, columns) - bearing - aside)))
+    wall = np.abs(np.hypot(rows, columns) - 80.0) <= 2.0
+    index, bits = CellIndex(wall & (np.abs(turn) > 0.03), 0.05), BitColumns(wall & (np.abs(turn) > 0.03))
+    beams = {
+        error: select_beams(LaserScan(0, np.array([5.5], np.float32), bearing, 0.1), Bounds(0.0, error, 0.0), 0, 1, FreeSpace(True, 0.01))
+        for error in (0.0, 0.04, 0.1)
+    }
+
+    def count(error: float, low: float, high: float) -> int:
+        box = Boxes.of([(6.0, 6.0), (6.0, 6.0), (low, high)])
+        return int(count_blocked(box, np.zeros(1, np.int16), beams[error], 2, index, bits, 1.0)[0])
+
+    assert count(0.0, -1e-9, 1e-9) == count(0.04, -1e-9, 1e-9) == count(0.0, -0.04, 0.04) == 1
+    assert count(0.1, -1e-9, 1e-9) == count(0.0, min(aside, 0.0), max(aside, 0.0)) == 0
