@@ -4,6 +4,7 @@ import numpy as np
 
 from ial.contractors.boxes import FloatArray
 from ial.contractors.intervals.arithmetic import add, div, mul, sub
+from ial.contractors.intervals.trigonometric import PI_LOWER, PI_UPPER
 from ial.contractors.kernels import kernel
 from ial.contractors.rounding import check_rounding
 from ial.datasets.motion import MotionBounds
@@ -34,6 +35,8 @@ def _sweep(stamps, numbers, parts, boxes):  # type: ignore[no-untyped-def]
         start, stop = float(abs(stamps[row] - stamps[0])), float(abs(stamps[row + 1] - stamps[0]))
         piece(stamps, numbers, row, parts, whole)
         aside = sagitta(whole)
+        if whole[2, 0] < -PI_LOWER or whole[2, 1] > PI_LOWER:  # half a circle may have been turned either way
+            whole[2, 0], whole[2, 1] = min(whole[2, 0], -PI_UPPER), max(whole[2, 1], PI_UPPER)
         while beam <= last and (beam * way / last <= stop or row == len(stamps) - 2):
             low, high = _share(beam * way / last, start, stop)
             for axis in range(3):
@@ -51,7 +54,8 @@ def sweep_boxes(path: OdometryPath, bounds: MotionBounds, beams: int) -> FloatAr
 
     The pieces of the path are bounded as those from scan to scan, but for `per_scan`. Within a piece the motion up to a beam is assumed to
     be the beam's share, by time, of the piece's true (dx, dy, dtheta), within 0.16·d·φ in dx and in dy, where d and φ are the way and the
-    turn of the piece: so it is for a robot that stands, and for one that goes evenly along a line or an arc.
+    turn of the piece, which is at most half a circle. So it is for a robot that stands, and for one that goes evenly along a line or an
+    arc.
 
     Parameters
     ----------
