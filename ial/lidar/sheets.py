@@ -108,7 +108,7 @@ class Sheets:
         one = grid.rows * grid.columns * split**2 <= _ONE_SHEET and split * max(grid.rows, grid.columns) <= LARGEST_SIDE
         self._rows, self._columns = (1, 1) if one else (math.ceil(size / self._side_m * ABOVE) for size in (grid.height_m, grid.width_m))
         if not self._countable(split, self._margin):
-            self._refuse("the map has too many of these parts", self._margin)
+            self._refuse("there are too many of these to be counted", self._margin)
         self._root = lattice.root(grid.width_m, grid.height_m)
         if radius_m and not any(self._roomy(*self._window((row, column))).any() for row, column in np.ndindex(self._rows, self._columns)):
             raise MapError(f"a robot with a radius of {radius_m:g} m fits nowhere in this map; give a smaller robot_radius_m")
