@@ -18,7 +18,7 @@ help:
 	@echo "make clean          remove the environment and everything that was made"
 
 demo: .venv/.run
-	.venv/bin/ial localize --out out/demo
+	.venv/bin/ial localize --out out/demo --overwrite
 
 test: .venv/.test
 	.venv/bin/pytest $(PYTEST_ARGS)

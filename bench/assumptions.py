@@ -1,5 +1,6 @@
 """Simulated runs in which the assumptions hold, and in which they are broken on purpose: what the localizer then says."""
 
+import dataclasses
 import itertools
 import math
 import statistics
@@ -20,6 +21,7 @@ from ial.datasets.walk import random_walk
 from ial.lidar.config import LocalizerConfig
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
+from ial.lidar.share import number_of
 from ial.maps.floor_plan import floor_plan
 from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.pose import Pose
@@ -39,7 +41,7 @@ DEFAULT = LocalizerConfig()
 
 
 def _halved(bound: ErrorBound, factor: float = 0.5) -> ErrorBound:
-    return ErrorBound(factor * bound.base, factor * bound.per_metre, factor * bound.per_radian)
+    return ErrorBound(*(factor * part for part in dataclasses.astuple(bound)))
 
 
 MOTION = MotionBounds(_halved(DEFAULT.bounds.motion.translation), _halved(DEFAULT.bounds.motion.rotation))
@@ -69,7 +71,7 @@ def run_of(case: Case, seed: int, scans: int) -> tuple[OccupancyGrid, Simulation
     """Simulate one run; return the map that the localizer is given, and the run."""
     world = floor_plan(15.0, 12.0, 0.05, seed)
     path = random_walk(world, scans, seed, step_m=0.3, turn_rad=0.3)
-    errors = SensorErrors(0.03, 0.005, math.floor(case.outliers * BEAMS), adversarial=case.outliers > 0.05)
+    errors = SensorErrors(0.03, 0.005, number_of(case.outliers, BEAMS), adversarial=case.outliers > 0.05)
     run = simulate(world, path, LIDAR, errors, MOTION, seed)
     if case.drift:
         run = replace(run, recording=drifting(run.recording, case.drift))
@@ -83,7 +85,8 @@ def drifting(recording: InMemoryRecording, factor: float) -> InMemoryRecording:
     moved = [readings[0]]
     for before, reading in itertools.pairwise(readings):
         step = before.odometry.pose.inverse() @ reading.odometry.pose
-        bound = DEFAULT.bounds.motion.rotation.at(math.hypot(step.x, step.y), abs(step.theta))
+        room = DEFAULT.bounds.motion.enclose(step, 1e-9 * (reading.stamp_ns - before.stamp_ns))
+        bound = 0.5 * float(room.upper[2] - room.lower[2])
         at = at @ Pose(step.x, step.y, step.theta + factor * bound)
         moved.append(replace(reading, odometry=Odometry.of(at)))
     return InMemoryRecording(recording.name, moved)

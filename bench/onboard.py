@@ -1,8 +1,7 @@
-"""`ial stream` for a very long time on one core: memory, latency, and whether a kill leaves a trace."""
+"""`ial stream` for a very long time on one core: memory and latency."""
 
 import json
 import os
-import random
 import subprocess
 import sys
 import tempfile
@@ -15,7 +14,6 @@ import numpy as np
 from report import Report, options
 
 from ial.datasets.opening import open_recording
-from ial.datasets.recording import Reading
 from ial.datasets.scan_stream import odometry_line, scan_line
 
 ABOUT = """\
@@ -35,7 +33,7 @@ def lines(count: int) -> Iterator[tuple[str, str]]:
         reading = readings[at]
         stamp = reading.stamp_ns + turn * period
         scan = replace(reading.scan, stamp_ns=stamp)
-        yield odometry_line(Reading(number, stamp, reading.odometry, scan)), scan_line(scan)
+        yield odometry_line(stamp, reading.odometry), scan_line(scan)
 
 
 def start(*arguments: object) -> "subprocess.Popen[bytes]":
@@ -86,46 +84,15 @@ def endurance(updates: int, deadline: float, state: Path) -> Iterator[str]:
     yield f"{statuses.count('localized') / updates:.4f}"
 
 
-def kills(count: int, updates: int, folder: Path) -> Iterator[str]:
-    """Yield the cells of one line: kill and restart again and again, then compare with an uninterrupted run."""
-    fed = [f"{odometry}\n{scan}\n".encode() for odometry, scan in lines(updates)]
-    whole, out, state = folder / "whole.jsonl", folder / "out.jsonl", folder / "state.npz"
-    process = start("--out", whole)
-    process.communicate(b"".join(fed))
-    chance = random.Random(1)
-    done = 0
-    while done < count:
-        running = start("--out", out, "--state", state)
-        assert running.stdin is not None
-        already = out.read_bytes().count(b"\n") if out.exists() else 0
-        goal = already + chance.randrange(1, 2 * updates // count)
-        running.stdin.writelines(fed[: goal + 1])
-        running.stdin.flush()
-        until = time.monotonic() + chance.uniform(0.0, 0.5)
-        while time.monotonic() < until + 30.0 and (not out.exists() or out.read_bytes().count(b"\n") < min(goal, updates) - 3):
-            time.sleep(0.001)
-        time.sleep(chance.uniform(0.0, 0.01))
-        running.kill()
-        running.communicate()
-        done += 1
-    process = start("--out", out, "--state", state)
-    process.communicate(b"".join(fed))
-    yield str(count)
-    yield str(updates)
-    yield "the same, byte for byte" if out.read_bytes() == whole.read_bytes() else "✗ different"
-
-
 def main() -> None:
     """Measure, print, and write."""
     parser = options(__doc__ or "")
     parser.add_argument("--updates", type=int, default=100_000)
-    parser.add_argument("--kills", type=int, default=50)
     chosen = parser.parse_args()
     report = Report("Onboard", ABOUT)
     with tempfile.TemporaryDirectory() as folder:
-        report.table(["kills", "scans", "lines at the end"], [kills(chosen.kills, 1500, Path(folder))])
         head = "updates|deadline, ms|memory, MB: first, last|peak|latency, ms: median, 99 %, most|share beyond the deadline|localized"
-        report.table(head.split("|"), [endurance(chosen.updates, 0.1, Path(folder) / "endurance.npz")])
+        report.table(head.split("|"), [endurance(chosen.updates, 0.1, Path(folder) / "state")])
     report.write(chosen.out)
 
 

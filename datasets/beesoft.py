@@ -1,7 +1,7 @@
 """Logs of L and O lines in centimetres, as the BeeSoft robots of Carnegie Mellon wrote them (Wean Hall).
 
-``O x y θ stamp`` is odometry; ``L x y θ xl yl θl r₁ … rₙ stamp`` is a scan with the odometry pose of the robot and of its laser at that
-time.
+``O x y θ stamp`` is a message of the odometry; ``L x y θ xl yl θl r₁ … rₙ stamp`` is a scan with the odometry pose of the robot and of its
+laser at that time.
 """
 
 import math
@@ -12,6 +12,7 @@ from pathlib import Path
 from ial.datasets.carmen_line import MalformedLineError, flaser_increment
 from ial.datasets.info import Topic
 from ial.datasets.odometry import Odometry
+from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.reader import Reader, Record
 from ial.datasets.scan import Mounting
 from ial.datasets.stamps import parse_stamp
@@ -46,8 +47,17 @@ class BeesoftLog(Reader):
 
     def _records(self) -> Iterator[Record]:
         mounting = self._mounting
+        messages: list[tuple[int, Odometry]] = []  # since the last scan that was used
+
+        def take(since: int | None) -> OdometryPath:
+            path = OdometryPath.of(messages)
+            messages.clear()
+            return path
+
         for line in lines(self._path):
             words = line.split()
+            if words[:1] == [b"O"]:
+                messages += self._message(words)
             if words[:1] != [b"L"]:
                 continue
             try:
@@ -65,7 +75,17 @@ class BeesoftLog(Reader):
                 "range_max": _NO_RETURN_M,
                 "mounting": mounting,
             }
-            yield Record(stamp, Odometry.of(robot), scan)
+            yield Record(stamp, Odometry.of(robot), scan, messages=take)
+
+    def _message(self, words: list[bytes]) -> list[tuple[int, Odometry]]:
+        """Return the odometry of an O line; nothing where it cannot be read, which is counted."""
+        try:
+            if len(words) != 5:
+                raise ValueError
+            return [(parse_stamp(words[4].decode()), Odometry.of(_pose(words[1:4])))]
+        except ValueError:
+            self.repaired["O line that cannot be read: left out"] += 1
+            return []
 
 
 def _parse(words: list[bytes]) -> tuple[Pose, Pose, list[float], int]:

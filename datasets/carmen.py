@@ -1,6 +1,7 @@
 """CARMEN logs: FLASER, ROBOTLASER1, ODOM and PARAM lines, plain or compressed with gzip.
 
-The odometry of a scan is the last ODOM line before it in file order; the stamps of ODOM lines repeat and jump and are not used. In a log
+The odometry of a scan is the last ODOM line before it in file order; the stamps of ODOM lines repeat and jump and are not used: the time
+from scan to scan is shared equally among the lines between. In a log
 that a mapper (GMapping's gfs) has corrected, each scan is followed by an ODOM line that repeats the scan's corrected pose, most with stamps
 0: from there on the odometry runs in another frame. Such a line re-bases the frame, so that readings carry one continuous odometry.
 """
@@ -16,6 +17,7 @@ import numpy as np
 from ial.datasets.carmen_line import LaserLine, MalformedLineError, parse_flaser, parse_odom, parse_robotlaser
 from ial.datasets.info import Topic
 from ial.datasets.odometry import Odometry
+from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.reader import Reader, Record
 from ial.datasets.scan import Mounting
 from ial.datasets.text_log import lines
@@ -83,10 +85,27 @@ class _OdometryChain:
     def __init__(self) -> None:
         self._frame: Pose | None = None  # T_odom_file; None is the identity, and exact
         self._recorded: Pose | None = None  # the last ODOM line
+        self._lines: list[Odometry] = []  # since the last scan that was used
 
     def record(self, pose: Pose | None) -> None:
         """Take an ODOM line; None is one that could not be read."""
         self._recorded = pose
+        here = self.odometry()
+        if here is not None:
+            self._lines.append(here)
+
+    def take(self, since: int | None) -> OdometryPath:
+        """Return the messages since the last scan that was used, but for the last, which is that of the scan at hand; forget them.
+
+        All have the stamp of that scan, which says that they have none of their own.
+        """
+        messages, self._lines = self._lines[:-1], []
+        return OdometryPath.of((since, message) for message in messages) if since is not None else OdometryPath.of()
+
+    def odometry(self) -> Odometry | None:
+        """Return the continuous pose as the odometry of a scan."""
+        here = self.pose()
+        return None if here is None else Odometry.of(here)
 
     def rebase(self, corrected: Pose) -> None:
         """From here on the log's odometry starts from `corrected` where it was at its last line."""
@@ -199,7 +218,7 @@ class CarmenLog(Reader):
                     yield Record(None, fault=str(fault) if line.endswith(b"\n") else f"{fault} (the log ends within it)")
                 else:
                     mounting = mounting or laser.mounting()
-                    yield self._record(laser, chain.pose(), mounting)
+                    yield self._record(laser, chain, mounting)
             after_scan = words[0] == keyword
 
     def _odom(self, words: list[bytes]) -> Pose | None:
@@ -209,7 +228,7 @@ class CarmenLog(Reader):
             self.repaired[f"{fault}: left out"] += 1
             return None
 
-    def _record(self, laser: LaserLine, pose: Pose | None, mounting: Mounting) -> Record:
+    def _record(self, laser: LaserLine, chain: _OdometryChain, mounting: Mounting) -> Record:
         scan = {
             "ranges": laser.ranges,
             "angle_min": laser.angle_min,
@@ -217,7 +236,7 @@ class CarmenLog(Reader):
             "range_max": self._survey().range_max if laser.range_max is None else laser.range_max,
             "mounting": mounting,
         }
-        return Record(laser.stamp_ns, None if pose is None else Odometry.of(pose), scan)
+        return Record(laser.stamp_ns, chain.odometry(), scan, messages=chain.take)
 
 
 def _positive(words: list[bytes]) -> float:

@@ -1,17 +1,19 @@
 """`convert`: writes any recording as a ROS bag or as JSON lines, which read back as the very same steps."""
 
+import math
+from collections.abc import Iterator
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
-
-import numpy as np
 
 from ial.datasets import ros_messages as ros
 from ial.datasets.odometry import Odometry
 from ial.datasets.recording import Reading, Recording
+from ial.datasets.ros_messages import ERROR_TOPIC, ERROR_TYPE, LOOKED_UP_TOPIC, ODOMETRY_TYPE
 from ial.datasets.scan import Mounting
 from ial.datasets.scan_stream import odometry_line, scan_line
 from ial.datasets.tf_buffer import ODOM_FRAME
 from ial.errors import OutputError
+from ial.whole_file import whole_files
 
 if TYPE_CHECKING:
     from ial.datasets.bag_writer import BagWriter
@@ -22,9 +24,10 @@ BASE = "base_link"
 def convert(recording: Recording, path: str | Path) -> int:
     """Write a recording as ``.mcap`` (ROS 2) or ``.bag`` (ROS 1) and return the number of scans.
 
-    Topics: ``/scan``, for all lidars; ``/odom``, one message at each scan's stamp, and one at its last beam where that has a time of its
-    own; ``/tf_static`` with the mounting of each lidar; ``/tf`` with odom → base_link; and, where odometry was interpolated,
-    ``/odom_error``. Scans that are skipped when the recording is read are not written.
+    Topics: ``/scan``, for all lidars; ``/odom`` and ``/tf`` (odom → base_link), every message of the odometry up to the last scan, with
+    that of each scan at its stamp; ``/tf_static`` with the mounting of each lidar; ``/odom_at_scan`` and ``/odom_error``, the odometry at
+    first and last beams where it is no message but was looked up between two. Scans that are skipped when the recording is read are not
+    written.
 
     Parameters
     ----------
@@ -44,6 +47,7 @@ def convert(recording: Recording, path: str | Path) -> int:
 
     mountings: dict[str, Mounting] = {}
     count = 0
+    messages = _Messages(str(path))
     with BagWriter(path) as bag:
         for reading in recording.readings():
             frame, mounting = reading.scan.frame_id, reading.scan.mounting
@@ -51,11 +55,16 @@ def convert(recording: Recording, path: str | Path) -> int:
                 _write_mounting(bag, reading)
             if mountings.setdefault(frame, mounting) != mounting:
                 raise OutputError(f"{path}: the mounting of the laser {frame} changes at scan {reading.index}, which one bag cannot say")
-            _write_odometry(bag, reading.odometry, reading.stamp_ns)
-            _write_scan(bag, reading)
-            if reading.end is not None:
-                _write_odometry(bag, reading.end, reading.scan.end_ns)
+            for stamp, message in messages.of(reading):
+                _write_message(bag, stamp, message)
+            if not reading.odometry.exact:
+                _write_looked_up(bag, reading.stamp_ns, reading.odometry)
+            bag.write("/scan", "sensor_msgs/msg/LaserScan", reading.stamp_ns, ros.scan_message(bag, reading.scan))
+            if reading.scan.sweep is not None:
+                _write_looked_up(bag, reading.scan.end_ns, reading.scan.sweep.last)
             count += 1
+        for stamp, message in messages.rest():
+            _write_message(bag, stamp, message)
     return count
 
 
@@ -78,20 +87,49 @@ def convert_to_lines(recording: Recording, target: Path | IO[str]) -> int:
     """
     if not isinstance(target, Path):
         count = 0
+        messages = _Messages(recording.name)
         for reading in recording.readings():
-            target.write(f"{odometry_line(reading)}\n{scan_line(reading.scan, reading.end)}\n")
+            target.writelines(f"{odometry_line(*message)}\n" for message in messages.of(reading))
+            target.write(f"{scan_line(reading.scan, None if reading.odometry.exact else reading.odometry)}\n")
             count += 1
+        target.writelines(f"{odometry_line(*message)}\n" for message in messages.rest())
         return count
-    temporary = target.with_name(f".{target.name}.part")
-    try:
-        with temporary.open("w", encoding="utf-8") as file:
-            count = convert_to_lines(recording, file)
-        temporary.replace(target)
-    except OSError as error:
-        raise OutputError(f"{target}: cannot be written ({error.strerror or error}); choose another folder") from None
-    finally:
-        temporary.unlink(missing_ok=True)
-    return count
+    with whole_files(target) as (lent,), lent.open("w", encoding="utf-8") as file:
+        return convert_to_lines(recording, file)
+
+
+class _Messages:
+    """The messages of a recording in the order of their stamps, each once: those of a scan's sweep come again before the next scans."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+        self._last: int | None = None
+        self._sweeps: dict[int, Odometry] = {}
+
+    def of(self, reading: Reading) -> Iterator[tuple[int, Odometry]]:
+        """Yield those before a scan, and that at its stamp.
+
+        Raises
+        ------
+        OutputError
+            If no copy could read as the same: their stamps do not increase, or some were lost.
+        """
+        for stamp, message in (*reading.messages, (reading.stamp_ns, reading.odometry)):
+            if self._last is not None and stamp <= self._last:
+                raise OutputError(f"{self._name}: scan {reading.index} has more odometry messages before it than nanoseconds")
+            if not math.isfinite(message.error_m):
+                raise OutputError(
+                    f"{self._name}: before scan {reading.index} too many odometry messages came without a usable scan to keep all"
+                )
+            self._last = stamp
+            if stamp < reading.stamp_ns or message.exact:
+                yield stamp, message
+        sweep = () if reading.scan.sweep is None else list(reading.scan.sweep)[1:-1]
+        self._sweeps = {stamp: message for stamp, message in (*self._sweeps.items(), *sweep) if stamp > reading.stamp_ns}
+
+    def rest(self) -> Iterator[tuple[int, Odometry]]:
+        """Yield those during the last sweeps, which no scan follows."""
+        yield from sorted(self._sweeps.items(), key=lambda message: message[0])
 
 
 def _write_mounting(bag: "BagWriter", first: Reading) -> None:
@@ -99,26 +137,20 @@ def _write_mounting(bag: "BagWriter", first: Reading) -> None:
     bag.write("/tf_static", "tf2_msgs/msg/TFMessage", first.stamp_ns, ros.transforms_message(bag, [transform]), latched=True)
 
 
-def _write_odometry(bag: "BagWriter", odometry: Odometry, stamp: int) -> None:
+def _write_message(bag: "BagWriter", stamp: int, odometry: Odometry) -> None:
     turn = ros.rotation(bag, 0.0, 0.0, odometry.z, odometry.w)
     transform = ros.stamped_transform(bag, stamp, ODOM_FRAME, BASE, odometry.x, odometry.y, turn)
     bag.write("/tf", "tf2_msgs/msg/TFMessage", stamp, ros.transforms_message(bag, [transform]))
-    pose = bag.message("geometry_msgs/msg/Pose", position=ros.point(bag, odometry.x, odometry.y), orientation=turn)
-    zero = ros.vector(bag, 0.0, 0.0)
-    twist = bag.message("geometry_msgs/msg/Twist", linear=zero, angular=zero)
-    message = bag.message(
-        "nav_msgs/msg/Odometry",
-        header=bag.header(stamp, ODOM_FRAME),
-        child_frame_id=BASE,
-        pose=bag.message("geometry_msgs/msg/PoseWithCovariance", pose=pose, covariance=np.zeros(36)),
-        twist=bag.message("geometry_msgs/msg/TwistWithCovariance", twist=twist, covariance=np.zeros(36)),
-    )
-    bag.write("/odom", "nav_msgs/msg/Odometry", stamp, message)
-    if odometry.error_m or odometry.error_rad:
+    _write_odometry(bag, "/odom", stamp, odometry)
+
+
+def _write_looked_up(bag: "BagWriter", stamp: int, odometry: Odometry) -> None:
+    _write_odometry(bag, LOOKED_UP_TOPIC, stamp, odometry)
+
+
+def _write_odometry(bag: "BagWriter", topic: str, stamp: int, odometry: Odometry) -> None:
+    bag.write(topic, ODOMETRY_TYPE, stamp, ros.odometry_message(bag, stamp, ODOM_FRAME, BASE, odometry))
+    if not odometry.exact:
         error = ros.vector(bag, odometry.error_m, 0.0, odometry.error_rad)
-        stamped = bag.message("geometry_msgs/msg/Vector3Stamped", header=bag.header(stamp, ODOM_FRAME), vector=error)
-        bag.write("/odom_error", "geometry_msgs/msg/Vector3Stamped", stamp, stamped)
-
-
-def _write_scan(bag: "BagWriter", reading: Reading) -> None:
-    bag.write("/scan", "sensor_msgs/msg/LaserScan", reading.stamp_ns, ros.scan_message(bag, reading.scan))
+        stamped = bag.message(ERROR_TYPE, header=bag.header(stamp, ODOM_FRAME), vector=error)
+        bag.write(ERROR_TOPIC, ERROR_TYPE, stamp, stamped)

@@ -7,6 +7,7 @@ import numpy as np
 
 from ial.datasets.in_memory import InMemoryRecording
 from ial.datasets.odometry import Odometry
+from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.recording import Reading, Recording
 from ial.datasets.trajectory import Trajectory
 from ial.errors import RecordingError
@@ -60,18 +61,12 @@ def kidnap(
     jumped = False
     for number, place in enumerate(order):
         reading = readings[place]
-        stamp, odometry, end = reading.stamp_ns, reading.odometry, reading.end  # before the first jump nothing changes, to the last bit
         jumped = jumped or place != number
-        if jumped:
-            source = max(place, 1)  # the first scan has no step before it: the one behind it serves
-            stamp = moved[-1].stamp_ns + readings[source].stamp_ns - readings[source - 1].stamp_ns
-            odometry = _continued(moved[-1].odometry, readings[source - 1].odometry, readings[source].odometry)
-            end = None if end is None else _continued(odometry, reading.odometry, end)
-        scan = replace(reading.scan, stamp_ns=stamp)
-        moved.append(Reading(number, stamp, odometry, scan, end))
+        # Before the first jump nothing changes, to the last bit.
+        moved.append(_moved(moved[-1], readings, place) if jumped else replace(reading, index=number))
         pose = None if truth is None else truth.at(reading.stamp_ns)
         if pose is not None:
-            stamps.append(stamp)
+            stamps.append(moved[-1].stamp_ns)
             poses.append((pose.x, pose.y, pose.theta))
     if truth is not None and not poses:
         raise RecordingError(f"no scan of {recording.name} has a reference: their stamps do not meet; check that it is the right file")
@@ -98,7 +93,25 @@ def _order(name: str, indices: list[int], places: dict[int, int], jumps: Sequenc
     yield from range(start, len(indices))
 
 
+def _moved(last: Reading, readings: Sequence[Reading], place: int) -> Reading:
+    """Return the scan at a place as the one that follows `last`, with the odometry of the recorded step that led to that scan."""
+    source = max(place, 1)  # the first scan has no step before it: the one behind it serves
+    before, now, reading = readings[source - 1], readings[source], readings[place]
+    later = last.stamp_ns - before.stamp_ns
+
+    def continued(path: OdometryPath, start: Odometry, onto: Odometry, later: int) -> OdometryPath:
+        return OdometryPath.of((stamp + later, _continued(onto, start, odometry)) for stamp, odometry in path)
+
+    messages = continued(now.messages, before.odometry, last.odometry, later)
+    stamp, odometry = now.stamp_ns + later, _continued(last.odometry, before.odometry, now.odometry)
+    sweep = reading.scan.sweep
+    if sweep is not None:
+        rest = continued(sweep, reading.odometry, odometry, stamp - reading.stamp_ns)
+        sweep = OdometryPath(rest.stamps_ns, np.concatenate([[odometry.numbers], rest.numbers[1:]]))
+    return Reading(last.index + 1, stamp, odometry, replace(reading.scan, stamp_ns=stamp, sweep=sweep), messages)
+
+
 def _continued(last: Odometry, before: Odometry, now: Odometry) -> Odometry:
-    """Return `last` moved on by the recorded step from `before` to `now`."""
+    """Return `last` moved on by the recorded step from `before` to `now`; these numbers are what the new recording records."""
     step: Pose = before.pose.inverse() @ now.pose
     return Odometry.of(last.pose @ step, now.error_m, now.error_rad)

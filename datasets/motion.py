@@ -1,48 +1,21 @@
 """`Motion`: an interval of SE(2), and `MotionBounds`, which turn odometry into one."""
 
+import dataclasses
 import math
 from dataclasses import dataclass, field, fields
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.intervals.angle import contains_angle, wrap_angle
-from ial.contractors.intervals.arithmetic import add, sub
-from ial.contractors.intervals.interval import Interval
-from ial.contractors.intervals.rotation import rotate
-from ial.contractors.intervals.trigonometric import cos, hypot, sin
-from ial.contractors.kernels import kernel
+from ial.contractors.intervals.arithmetic import add
 from ial.contractors.rounding import check_rounding
+from ial.datasets import motion_boxes
 from ial.datasets.odometry import Odometry
+from ial.datasets.odometry_path import OdometryPath
 from ial.errors import ConfigError
 from ial.pose import Pose
-
-
-@kernel
-def _rotate(x, y, heading, rotated):  # type: ignore[no-untyped-def]
-    """Turn the point (x, y) by a heading; all are (lower, upper) pairs in arrays, the result goes to `rotated[0:2]`."""
-    turned = rotate(*cos(heading[0], heading[1]), *sin(heading[0], heading[1]), x[0], x[1], y[0], y[1])
-    rotated[0, 0], rotated[0, 1], rotated[1, 0], rotated[1, 1] = turned
-
-
-@kernel
-def _compose(first, second, composed):  # type: ignore[no-untyped-def]
-    """Write first ⊕ second, rows (dx, dy, dtheta) of (lower, upper): ``d = d1 + R(θ1) d2, θ = θ1 + θ2``."""
-    _rotate(second[0], second[1], first[2], composed)
-    composed[0, 0], composed[0, 1] = add(first[0, 0], first[0, 1], composed[0, 0], composed[0, 1])
-    composed[1, 0], composed[1, 1] = add(first[1, 0], first[1, 1], composed[1, 0], composed[1, 1])
-    composed[2, 0], composed[2, 1] = add(first[2, 0], first[2, 1], second[2, 0], second[2, 1])
-
-
-@kernel
-def _difference(previous, now, difference):  # type: ignore[no-untyped-def]
-    """Write ``previous⁻¹ ⊕ now`` of two interval poses, rows (x, y, theta) of (lower, upper)."""
-    position = np.empty((2, 2))
-    for axis in range(2):
-        position[axis, 0], position[axis, 1] = sub(now[axis, 0], now[axis, 1], previous[axis, 0], previous[axis, 1])
-    back = np.array([-previous[2, 1], -previous[2, 0]])
-    _rotate(position[0], position[1], back, difference)
-    difference[2, 0], difference[2, 1] = sub(now[2, 0], now[2, 1], previous[2, 0], previous[2, 1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +56,7 @@ class Motion:
         """Return a box around ``T_odom_previous⁻¹ @ T_odom_now``, for every pair of poses within the two readings' error bounds."""
         check_rounding()
         difference = np.empty((3, 2))
-        _difference(_pose_box(previous), _pose_box(now), difference)
+        motion_boxes.difference(np.array(previous.numbers), np.array(now.numbers), difference)
         return cls(difference[:, 0], difference[:, 1])
 
     @classmethod
@@ -96,7 +69,7 @@ class Motion:
         """Return a box around this motion followed by a later one: ``d = d1 + R(θ1) d2, θ = θ1 + θ2``."""
         check_rounding()
         composed = np.empty((3, 2))
-        _compose(self._rows(), later._rows(), composed)
+        motion_boxes.compose(self._rows(), later._rows(), composed)
         return Motion(composed[:, 0], composed[:, 1])
 
     def contains(self, delta: Pose) -> bool:
@@ -110,27 +83,25 @@ class Motion:
         return np.stack([self.lower, self.upper], axis=1)
 
 
-def _pose_box(odometry: Odometry) -> npt.NDArray[np.float64]:
-    """Return rows (x, y, theta) of (lower, upper): the pose plus and minus its error, rounded outward."""
-    pose = odometry.pose
-    rows = np.empty((3, 2))
-    for row, value, error in zip(rows, (pose.x, pose.y, pose.theta), (odometry.error_m,) * 2 + (odometry.error_rad,), strict=True):
-        row[:] = add(value, value, -error, error)
-    return rows
-
-
 @dataclass(frozen=True)
 class ErrorBound:
-    """A bound that grows with the motion: ``base + per_metre · |translation| + per_radian · |rotation|``.
+    """How far a recorded motion may be from the true one, for each message of the odometry and for each scan.
+
+    From one message to the next the bound is ``per_message + per_metre · |translation| + per_radian · |rotation| + per_second · seconds``;
+    `per_scan` is added once from scan to scan. All in metres for a translation, and in radians for a rotation.
 
     Parameters
     ----------
-    base
-        Metres for a translation, radians for a rotation.
+    per_message
+        Added for each message: what is rounded, or jitters.
     per_metre
         Added for each metre travelled.
     per_radian
         Added for each radian turned.
+    per_second
+        Added for each second: what happens though the wheels say nothing, and where messages are missing.
+    per_scan
+        Added once for each scan: what does not accumulate, such as a stamp that is late.
 
     Raises
     ------
@@ -138,9 +109,11 @@ class ErrorBound:
         If a number is negative, infinite or NaN.
     """
 
-    base: float
+    per_message: float = 0.0
     per_metre: float = 0.0
     per_radian: float = 0.0
+    per_second: float = 0.0
+    per_scan: float = 0.0
 
     def __post_init__(self) -> None:
         for part in fields(self):
@@ -148,19 +121,12 @@ class ErrorBound:
             if not (math.isfinite(value) and value >= 0.0):
                 raise ConfigError(f"motion bound {part.name} is {value}; give a finite number that is not negative")
 
-    def at(self, translation_m: float, rotation_rad: float) -> float:
-        """Return the bound for a motion, rounded up."""
-        # An unknown motion is infinite, so what was travelled is an interval that ends there.
-        travelled = self.per_metre * Interval(0.0, translation_m)
-        turned = self.per_radian * Interval(0.0, rotation_rad)
-        return (self.base + (travelled + turned)).upper
-
 
 @dataclass(frozen=True)
 class MotionBounds:
-    """How far one recorded odometry step may be from the true motion.
+    """How far the recorded odometry may be from the true motion.
 
-    The defaults hold for 98 to 99.6 % of the recorded steps of three robots whose corrected trajectories are known (Intel, Freiburg 079,
+    The defaults hold for 98.2 to 100 % of the recorded steps of three robots whose corrected trajectories are known (Intel, Freiburg 079,
     ACES), one of them with poor odometry.
 
     Parameters
@@ -171,27 +137,50 @@ class MotionBounds:
         Bound of dtheta, radians.
     sideways
         Bound of dy alone, metres, for a robot whose wheels do not let it drive sideways; that of `translation` by default, as for an
-        omnidirectional drive. It must cover what a turn within a step does to dy.
+        omnidirectional drive. It must cover what a turn between two messages does to dy.
     """
 
-    translation: ErrorBound = field(default_factory=lambda: ErrorBound(0.12, 0.12, 0.12))
-    rotation: ErrorBound = field(default_factory=lambda: ErrorBound(0.08, 0.15, 0.25))
+    translation: ErrorBound = field(default_factory=lambda: ErrorBound(0.0, 0.05, 0.05, 0.01, 0.13))
+    rotation: ErrorBound = field(default_factory=lambda: ErrorBound(0.0, 0.05, 0.25, 0.01, 0.09))
     sideways: ErrorBound | None = None
 
-    def enclose(self, delta: Motion | Pose) -> Motion:
-        """Return the box of all true motions, given one recorded odometry step.
+    @cached_property
+    def parts(self) -> npt.NDArray[np.float64]:
+        """The five parts of the bounds of dx, dy and dtheta, float64 of shape (3, 5)."""
+        rows = (self.translation, self.translation if self.sideways is None else self.sideways, self.rotation)
+        parts = np.array([dataclasses.astuple(row) for row in rows])
+        parts.setflags(write=False)
+        return parts
+
+    def along(self, path: OdometryPath) -> Motion:
+        """Return the box of all true motions from the first odometry of a path to its last.
+
+        The pieces from each message to the next are widened by their bounds and composed; the whole is widened by `per_scan`.
+
+        Parameters
+        ----------
+        path
+            At least two odometry readings: those of two scans, and every message between them.
+        """
+        check_rounding()
+        moved = np.empty((3, 2))
+        motion_boxes.along(path.stamps_ns, path.numbers, self.parts, moved)
+        return Motion(moved[:, 0], moved[:, 1])
+
+    def enclose(self, delta: Motion | Pose, seconds: float = 0.0) -> Motion:
+        """Return the box of all true motions from one scan to the next, where one message lies between.
 
         Parameters
         ----------
         delta
-            The step from odometry: a pose in the frame of the earlier one, or a box around it (`Motion.between`).
+            The motion from odometry: a pose in the frame of the earlier one, or a box around it (`Motion.between`).
+        seconds
+            How long it took.
         """
         check_rounding()
         recorded = Motion.around(delta) if isinstance(delta, Pose) else delta
-        dx, dy, turn = np.maximum(np.abs(recorded.lower), np.abs(recorded.upper)).tolist()
-        distance = hypot(0.0, dx, 0.0, dy)[1]
-        shift, twist = self.translation.at(distance, turn), self.rotation.at(distance, turn)
-        aside = shift if self.sideways is None else self.sideways.at(distance, turn)
-        bounds = zip(recorded.lower.tolist(), recorded.upper.tolist(), (shift, aside, twist), strict=True)
-        enclosed = np.array([add(lower, upper, -half, half) for lower, upper, half in bounds])
+        box = np.stack([recorded.lower, recorded.upper], axis=1)
+        motion_boxes.widen(box, self.parts, seconds)
+        once = self.parts[:, motion_boxes.PER_SCAN]
+        enclosed = np.array([add(low, high, -half, half) for (low, high), half in zip(box, once, strict=True)])
         return Motion(enclosed[:, 0], enclosed[:, 1])

@@ -9,9 +9,11 @@ from ial.pose import Pose
 
 @dataclass(frozen=True)
 class Odometry:
-    """The odometry of one scan: ``T_odom_base`` as position and unit quaternion.
+    """The odometry at one moment: ``T_odom_base`` as position and quaternion.
 
-    The quaternion is kept as it was read, so that writing and reading it again changes no bit.
+    The quaternion is kept as it was read, of any length, so that writing and reading it again changes no bit. These four numbers *are* what
+    was recorded: bounds are about the exact motion between the exact poses that they say, and what a reader makes of decimals, of angles
+    (`of`), or of the frames of a corrected log belongs to the recording.
 
     Parameters
     ----------
@@ -20,7 +22,7 @@ class Odometry:
     z, w
         The quaternion (0, 0, z, w) of the heading.
     error_m, error_rad
-        How far each coordinate and the heading may be from what the robot recorded, because the scan's stamp fell between two messages.
+        How far each coordinate and the heading may be from what the robot recorded, because the moment fell between two messages.
     """
 
     x: float
@@ -32,13 +34,23 @@ class Odometry:
 
     @classmethod
     def of(cls, pose: Pose, error_m: float = 0.0, error_rad: float = 0.0) -> "Odometry":
-        """Return the odometry of a pose whose heading is an angle."""
+        """Return the odometry of a pose whose heading is an angle, as the quaternion of doubles next to it."""
         return cls(pose.x, pose.y, *pose.quaternion(), error_m, error_rad)
 
     @cached_property
     def pose(self) -> Pose:
-        """``T_odom_base``."""
+        """``T_odom_base``, its heading rounded to an angle: for pictures, never for a bound."""
         return Pose.from_quaternion(self.x, self.y, self.z, self.w)
+
+    @property
+    def numbers(self) -> tuple[float, float, float, float, float, float]:
+        """All of it: x, y, z, w, error_m, error_rad."""
+        return self.x, self.y, self.z, self.w, self.error_m, self.error_rad
+
+    @property
+    def exact(self) -> bool:
+        """Whether it is what the robot recorded, not something between two messages."""
+        return self.error_m == 0.0 == self.error_rad
 
     @property
     def valid(self) -> bool:

@@ -2,12 +2,13 @@
 
 from abc import ABC, abstractmethod
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
 from ial.datasets.info import RecordingInfo, Topic
 from ial.datasets.odometry import Odometry
+from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.recording import Reading
 from ial.datasets.scan import LaserScan
 from ial.datasets.survey import survey
@@ -30,22 +31,24 @@ class Record:
         The arguments of `LaserScan`, without the stamp.
     fault
         Why it cannot be used, if it cannot.
-    end
-        Its odometry at the last beam, where that is known.
+    messages
+        Gives the odometry messages since a scan, by the stamp that this has in the file, or since the beginning if there is None; without
+        those at the two scans. It is asked at most once, and only of a scan that is used.
     """
 
     stamp_ns: int | None
     odometry: Odometry | None = None
     scan: dict[str, Any] = field(default_factory=dict)
     fault: str = ""
-    end: Odometry | None = None
+    messages: Callable[[int | None], OdometryPath] = lambda since: OdometryPath.of()
 
 
 class Reader(ABC):
     """A recording in a file: a subclass yields its records, this class makes them canonical readings.
 
-    A stamp that does not increase becomes its predecessor's plus 1 ms and is counted; but the scan of another lidar at the same stamp
-    follows after 1 ns. A scan that cannot be used is counted by its reason.
+    A stamp that does not increase becomes its predecessor's plus 1 ms and is counted, and the times of its beams are not known; but the
+    scan of another lidar at the same stamp follows after 1 ns. A scan that cannot be used is counted by its reason, and the odometry
+    messages before it belong to the next scan that can.
 
     Parameters
     ----------
@@ -82,35 +85,39 @@ class Reader(ABC):
         """
         self.skipped.clear()
         self.repaired.clear()
-        yielded = 0
         last: int | None = None
         recorded: tuple[int | None, set[str]] = None, set()  # the last stamp in the file, and the lidars that had it
+        used: Reading | None = None
+        since: int | None = None  # the stamp in the file of the last scan that was used
         for index, record in enumerate(self._records()):
-            stamp, lidar = record.stamp_ns, record.scan.get("frame_id", "")
+            stamp, lidar, timed = record.stamp_ns, record.scan.get("frame_id", ""), {}
             if stamp is not None and last is not None and stamp <= last:
                 together = stamp == recorded[0] and lidar not in recorded[1]
                 stamp = last + (1 if together else _MILLISECOND)
                 if not together:
                     self.repaired["stamp did not increase: set to its predecessor's plus 1 ms"] += 1
+                    timed = {"time_increment": 0.0, "sweep": None}
             recorded = record.stamp_ns, {lidar, *(recorded[1] if record.stamp_ns == recorded[0] else ())}
             last = last if stamp is None else stamp
-            scan = self._scan(record, stamp)
+            scan = self._scan(record, stamp, timed)
             if isinstance(scan, str):
                 self.skipped[scan] += 1
             elif record.odometry is not None:
-                yielded += 1
-                yield Reading(index, scan.stamp_ns, record.odometry, scan, record.end)
-        if not yielded:
+                messages = record.messages(since).within(None if used is None else used.stamp_ns, scan.stamp_ns)
+                since = record.stamp_ns
+                used = Reading(index, scan.stamp_ns, record.odometry, scan, messages)
+                yield used
+        if used is None:
             self._refuse()
 
-    def _scan(self, record: Record, stamp: int | None) -> LaserScan | str:
+    def _scan(self, record: Record, stamp: int | None, timed: dict[str, Any]) -> LaserScan | str:
         """Return the scan, or the reason why it is skipped."""
         if record.fault or stamp is None:
             return record.fault or "scan without a readable stamp"
         if record.odometry is None:
             return "no odometry"
         try:
-            return LaserScan(stamp_ns=stamp, **record.scan)
+            return LaserScan(stamp_ns=stamp, **{**record.scan, **timed})
         except RecordingError as error:
             return str(error)
 

@@ -2,12 +2,15 @@
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Protocol
+
+import numpy as np
 
 from ial.datasets.info import RecordingInfo
 from ial.datasets.motion import Motion, MotionBounds
 from ial.datasets.odometry import Odometry
+from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.scan import BeamClass, LaserScan
 from ial.errors import RecordingError
 
@@ -26,20 +29,16 @@ class Reading:
         Where the odometry says the robot was at that time.
     scan
         The scan.
-    end
-        The odometry at the last beam, where beams have times of their own and the recording tells it.
+    messages
+        Every message of the odometry since the scan yielded before, in the order of recording; those at the two scans are not among them.
+        Their stamps lie between those of the two scans. For the first scan: every message before it, where messages have stamps.
     """
 
     index: int
     stamp_ns: int
     odometry: Odometry
     scan: LaserScan
-    end: Odometry | None = None
-
-    @property
-    def swept(self) -> LaserScan:
-        """The scan with the motion during it, if that is known."""
-        return self.scan if self.end is None else replace(self.scan, sweep=self.odometry.pose.inverse() @ self.end.pose)
+    messages: OdometryPath = field(default_factory=OdometryPath.of)
 
 
 class Recording(Protocol):
@@ -86,6 +85,8 @@ class Step:
         The motion since the last processed scan; None for the first.
     odometry
         Where the odometry says the robot is at the scan.
+    recorded
+        What `motion` was made of: the odometry from each scan of the recording to the next, since the last processed one.
     """
 
     index: int
@@ -93,6 +94,7 @@ class Step:
     motion: Motion | None
     scan: LaserScan
     odometry: Odometry
+    recorded: tuple[OdometryPath, ...] = ()
 
     @property
     def mark(self) -> "Mark":
@@ -116,23 +118,33 @@ class Mark:
 
 
 def steps(
-    recording: Recording, bounds: MotionBounds, start: int = 0, stop: int | None = None, every: int = 1, after: Mark | None = None
+    recording: Recording,
+    bounds: MotionBounds,
+    start: int = 0,
+    stop: int | None = None,
+    every: int = 1,
+    after: Mark | None = None,
+    *,
+    no_return: bool = False,
 ) -> Iterator[Step]:
     """Yield the scans start, start + every, … below stop, each with the motion since the one yielded before.
 
-    Every recorded odometry step in between is enclosed by `bounds` and composed in interval arithmetic.
+    A recorded step leads from each scan of the recording to the next. The messages in it are enclosed by `bounds` and composed in interval
+    arithmetic, and so are the steps over scans that are left out.
 
     Parameters
     ----------
     recording
         The recording to read.
     bounds
-        How far one recorded odometry step may be from the truth.
+        How far recorded odometry may be from the truth.
     start, stop, every
         Which raw scans to process, like a slice; `stop` is exclusive.
     after
-        Go on behind this scan: those up to its stamp are passed over. Where the recording does not hold it (a live one, which went on in
-        the meantime), scans are counted on from its number.
+        Go on behind this scan: scans and messages up to its stamp are passed over. Where the recording does not hold it (a live one, which
+        went on in the meantime), scans are counted on from its number, and the time without messages is one piece of the odometry.
+    no_return
+        Whether beams without return are usable, as hits are.
 
     Raises
     ------
@@ -141,22 +153,27 @@ def steps(
     """
     if start < 0 or every < 1 or (stop is not None and stop <= start):
         raise RecordingError(f"no scan lies in from {start} to {stop} every {every}; give 0 <= from < to and every >= 1")
-    previous = None if after is None else after.odometry
+    previous = None if after is None else (after.stamp_ns, after.odometry)
     motion: Motion | None = None
+    recorded: list[OdometryPath] = []
     yielded, usable = 0, after is not None
+    used = (BeamClass.HIT, BeamClass.NO_RETURN) if no_return else (BeamClass.HIT,)
     for reading in _behind(recording, after):
         if stop is not None and reading.index >= stop:
             break
+        here = reading.stamp_ns, reading.odometry
         if previous is not None and (yielded or after is not None):
-            recorded = bounds.enclose(Motion.between(previous, reading.odometry))
-            motion = recorded if motion is None else motion.compose(recorded)
-        previous = reading.odometry
+            path = reading.messages.behind(previous[0]).joining(previous, here)
+            recorded.append(path)
+            moved = bounds.along(path)
+            motion = moved if motion is None else motion.compose(moved)
+        previous = here
         if reading.index < start or (reading.index - start) % every:
             continue
-        usable = usable or bool((reading.scan.classes() == BeamClass.HIT).any())
-        yield Step(reading.index, reading.stamp_ns, motion, reading.swept, reading.odometry)
+        usable = usable or bool(np.isin(reading.scan.classes(), used).any())
+        yield Step(reading.index, reading.stamp_ns, motion, reading.scan, reading.odometry, tuple(recorded))
         yielded += 1
-        motion = None
+        motion, recorded = None, []
     if after is None:
         _check_any(recording, yielded, usable, start)
 

@@ -1,6 +1,5 @@
 """`RosBag`: recordings of ROS 1 and ROS 2."""
 
-import math
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,16 +11,14 @@ from ial.datasets.odometry_buffer import OdometryBuffer
 from ial.datasets.order import in_order_of_stamps
 from ial.datasets.reader import Reader, Record
 from ial.datasets.ros_frames import BASE_FRAMES, frame_name, mounting_of, odometry_from_tf, odometry_of, stamp_of, take_transforms
-from ial.datasets.scan import Mounting
+from ial.datasets.ros_messages import ERROR_TOPIC, ERROR_TYPE, LOOKED_UP_TOPIC, ODOMETRY_TYPE
+from ial.datasets.scan import Mounting, last_beam_ns
 from ial.datasets.tf_buffer import TransformBuffer
 from ial.errors import RecordingError
 from ial.pose import Pose
 
 SCAN_TYPE = "sensor_msgs/msg/LaserScan"
-ODOMETRY_TYPE = "nav_msgs/msg/Odometry"
 TRANSFORM_TYPES = ("tf2_msgs/msg/TFMessage", "tf/msg/tfMessage")
-ERROR_TYPE = "geometry_msgs/msg/Vector3Stamped"
-ERROR_TOPIC = "/odom_error"  # written by `convert`: how far an interpolated odometry may be off, metres in x and radians in z
 
 
 @dataclass(frozen=True)
@@ -106,7 +103,7 @@ class RosBag(Reader):
                 fault = f"has the type {', '.join(types)}, not {kind}" if types else "is not in the recording"
                 raise RecordingError(f"{self.name}: topic {named} {fault}; its topics are: {_listed(bag.topics)}")
             return named
-        found = bag.of_type(kind)
+        found = [topic for topic in bag.of_type(kind) if topic != LOOKED_UP_TOPIC]
         if len(found) > 1:
             also = "; several lidars are used together if each is named" if kind == SCAN_TYPE else ""
             names = ", ".join(found)
@@ -117,27 +114,27 @@ class RosBag(Reader):
         """Read the transforms and the odometry."""
         from_tf = self._odom_topic is not None and self._odom_topic in bag.of_type(*TRANSFORM_TYPES)
         topic = None if from_tf else self._choose(bag, ODOMETRY_TYPE, self._odom_topic, "--odom-topic")
-        error_topics = [name for name in bag.of_type(ERROR_TYPE) if name == ERROR_TOPIC]
-        wanted = {*bag.of_type(*TRANSFORM_TYPES), *error_topics, *([topic] if topic else [])}
+        ours = set() if from_tf else {LOOKED_UP_TOPIC, ERROR_TOPIC}.intersection(bag.of_type(ODOMETRY_TYPE, ERROR_TYPE))
+        wanted = {*bag.of_type(*TRANSFORM_TYPES), *ours, *([topic] if topic else [])}
         transforms = TransformBuffer()
         odometry = OdometryBuffer()
         base = ""
         for name, message in bag.messages(wanted):
-            if name == topic:
-                self._take_odometry(odometry, message)
+            if name in (topic, LOOKED_UP_TOPIC):
+                self._take_odometry(odometry, message, looked_up=name == LOOKED_UP_TOPIC)
                 base = base or frame_name(message.child_frame_id)
             elif name == ERROR_TOPIC:
                 odometry.limit(stamp_of(message), message.vector.x, message.vector.z)
             else:
                 take_transforms(transforms, message)
-        if topic is None:
+        if topic is None and LOOKED_UP_TOPIC not in ours:
             return _Robot(transforms, *odometry_from_tf(transforms, self.name))
         return _Robot(transforms, odometry, _base_frame(base, transforms))
 
-    def _take_odometry(self, buffer: OdometryBuffer, message: Any) -> None:
+    def _take_odometry(self, buffer: OdometryBuffer, message: Any, looked_up: bool) -> None:
         odometry = odometry_of(message)
         if odometry.valid:
-            buffer.add(stamp_of(message), odometry)
+            (buffer.fix if looked_up else buffer.add)(stamp_of(message), odometry)
         else:
             self.repaired["odometry message that is not finite: left out"] += 1
 
@@ -152,9 +149,9 @@ def _record(message: Any, odometry: OdometryBuffer, mounting: Mounting, frame: s
     stamp = stamp_of(message)
     names = ("ranges", "angle_min", "angle_increment", "range_min", "range_max", "time_increment")
     scan = {name: getattr(message, name) for name in names}
-    end = stamp + round(1e9 * message.time_increment * (len(message.ranges) - 1)) if math.isfinite(message.time_increment) else stamp
-    during = None if end == stamp else odometry.at(end)
-    return Record(stamp, odometry.at(stamp), {**scan, "mounting": mounting, "frame_id": frame}, end=during)
+    sweep = odometry.sweep(stamp, last_beam_ns(stamp, message.time_increment, len(message.ranges)))
+    about = {**scan, "mounting": mounting, "frame_id": frame, "sweep": sweep}
+    return Record(stamp, odometry.at(stamp), about, messages=lambda since: odometry.between(since, stamp))
 
 
 def _listed(topics: list[Topic]) -> str:

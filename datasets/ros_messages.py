@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ial.datasets.odometry import Odometry
 from ial.datasets.scan import LaserScan, Mounting
 from ial.maps.grid_message import grid_to_message_fields
 from ial.maps.occupancy_grid import OccupancyGrid
@@ -13,6 +14,11 @@ from ial.pose import Pose
 
 if TYPE_CHECKING:
     from ial.datasets.bag_writer import BagWriter  # rosbags is slow to import
+
+ODOMETRY_TYPE = "nav_msgs/msg/Odometry"
+LOOKED_UP_TOPIC = "/odom_at_scan"  # written by `convert`: the odometry at a first or last beam, where that is no message
+ERROR_TYPE = "geometry_msgs/msg/Vector3Stamped"
+ERROR_TOPIC = "/odom_error"  # written by `convert`: how far an interpolated odometry may be off, metres in x and radians in z
 
 
 def vector(bag: "BagWriter", x: float, y: float, z: float = 0.0) -> Any:
@@ -69,6 +75,21 @@ def stamped_transform(bag: "BagWriter", stamp_ns: int, parent: str, child: str, 
 def transforms_message(bag: "BagWriter", transforms: Iterable[Any]) -> Any:
     """Return a tf2_msgs/TFMessage."""
     return bag.message("tf2_msgs/msg/TFMessage", transforms=list(transforms))
+
+
+def odometry_message(bag: "BagWriter", stamp_ns: int, frame: str, child: str, odometry: Odometry) -> Any:
+    """Return a nav_msgs/Odometry; it does not say how sure it is, nor how fast the robot moves."""
+    position, turn = point(bag, odometry.x, odometry.y), rotation(bag, 0.0, 0.0, odometry.z, odometry.w)
+    pose = bag.message("geometry_msgs/msg/Pose", position=position, orientation=turn)
+    zero = vector(bag, 0.0, 0.0)
+    twist = bag.message("geometry_msgs/msg/Twist", linear=zero, angular=zero)
+    return bag.message(
+        ODOMETRY_TYPE,
+        header=bag.header(stamp_ns, frame),
+        child_frame_id=child,
+        pose=bag.message("geometry_msgs/msg/PoseWithCovariance", pose=pose, covariance=np.zeros(36)),
+        twist=bag.message("geometry_msgs/msg/TwistWithCovariance", twist=twist, covariance=np.zeros(36)),
+    )
 
 
 def scan_message(bag: "BagWriter", scan: LaserScan) -> Any:

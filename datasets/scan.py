@@ -11,6 +11,7 @@ from ial.contractors.expressions.functions import add, mul
 from ial.contractors.expressions.operation import Bounds
 from ial.contractors.intervals.trigonometric import LARGEST_ANGLE
 from ial.datasets.odometry import quaternion_heading
+from ial.datasets.odometry_path import OdometryPath
 from ial.errors import RecordingError
 from ial.pose import Pose
 
@@ -88,7 +89,8 @@ class LaserScan:
     frame_id
         Name of the laser's frame.
     sweep
-        How the base moved from the first beam to the last, by its odometry, in the frame of the base at the first; None if it is not known.
+        The odometry at the first beam, at every message during the scan, and at the last beam; None if it is not known. The beams' times
+        are evenly spread over it.
 
     Raises
     ------
@@ -106,7 +108,7 @@ class LaserScan:
     time_increment: float = 0.0
     mounting: Mounting = field(default_factory=Mounting)
     frame_id: str = "laser"
-    sweep: Pose | None = None
+    sweep: OdometryPath | None = None
 
     def __post_init__(self) -> None:
         with np.errstate(over="ignore"):
@@ -124,14 +126,14 @@ class LaserScan:
             raise RecordingError("scan whose angles or times are not finite")
         if not max(abs(self.angle_min), abs(self.angle_min + (len(self.ranges) - 1) * self.angle_increment)) <= LARGEST_BEARING:
             raise RecordingError("scan whose bearings are thousands of turns")
-        if self.sweep is not None and not (
-            math.isfinite(self.sweep.x) and math.isfinite(self.sweep.y) and abs(self.sweep.theta) <= math.pi
-        ):
-            raise RecordingError("scan with a sweep that is no motion: not finite, or of more than half a turn")
         if self.angle_increment == 0.0 and len(self.ranges) > 1:
             raise RecordingError("scan with an angle increment of zero")
         if not self.range_max > max(self.range_min, 0.0):  # also true of NaN
             raise RecordingError("scan whose range_max does not exceed its range_min")
+        if self.sweep is not None and len(self.sweep) < 2:
+            raise RecordingError("scan whose sweep is not known at its first and last beam")
+        if self.sweep is not None and not np.isfinite(self.sweep.numbers).all():
+            raise RecordingError("scan with a sweep that is no motion: not finite")
 
     def __len__(self) -> int:
         return len(self.ranges)
@@ -139,7 +141,7 @@ class LaserScan:
     @property
     def end_ns(self) -> int:
         """Time of the last beam, nanoseconds."""
-        return self.stamp_ns + round(1e9 * self.time_increment * (len(self.ranges) - 1))
+        return last_beam_ns(self.stamp_ns, self.time_increment, len(self.ranges))
 
     def classes(self) -> npt.NDArray[np.uint8]:
         """Return the `BeamClass` of each beam, uint8 of shape (n,).
@@ -175,6 +177,12 @@ class LaserScan:
         """Return how far a real number that rounds to each float32 range may lie from it, metres, float64 of shape (n,); NaN stays."""
         with np.errstate(invalid="ignore"):
             return np.abs(np.spacing(self.ranges)).astype(np.float64) * 0.5  # exact
+
+
+def last_beam_ns(stamp_ns: int, time_increment: float, beams: int) -> int:
+    """Return the time of a scan's last beam, nanoseconds; that of its first where the time between beams is no number."""
+    step = float(np.float32(time_increment))
+    return stamp_ns + round(1e9 * step * (beams - 1)) if math.isfinite(step) else stamp_ns
 
 
 def _read_as(value: float) -> Bounds:

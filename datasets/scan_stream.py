@@ -3,24 +3,25 @@
 Each line is an object with one key.
 
 ``{"odometry": {"stamp": "1.500000000", "x": 0.1, "y": 0.2, "z": 0.0, "w": 1.0}}``
-    Where the odometry says the robot is: metres, and the quaternion (0, 0, z, w), or ``theta`` in radians in its place. ``error_m`` and
-    ``error_rad`` say how far it may be from what was recorded; 0 if they are left out.
+    A message of the odometry: metres, and the quaternion (0, 0, z, w), or ``theta`` in radians in its place. ``error_m`` and ``error_rad``
+    say how far it may be from what was recorded; 0 if they are left out.
 
 ``{"scan": {"stamp": "1.500000000", "angle_min": -1.57, "angle_increment": 0.017, "ranges": [2.31, null, "inf"]}}``
     A scan with the numbers of ``sensor_msgs/LaserScan``; optional are ``range_min`` (0), ``range_max`` (``"inf"``), ``time_increment`` (0),
-    ``frame_id``, ``laser``, which says where the lidar sits on the robot (``{"x": 0.1, "y": 0.0, "yaw": 0.0, "upside_down": false}``), and
-    ``end``, the odometry at the last beam (``x``, ``y``, ``z``, ``w``). A range is a number, ``"inf"``, ``"-inf"``, or null for none
-    (REP-117).
+    ``frame_id``, ``laser``, which says where the lidar sits on the robot (``{"x": 0.1, "y": 0.0, "yaw": 0.0, "upside_down": false}``),
+    ``end``, the odometry at the last beam, and ``odometry``, that at the first beam where it was interpolated (both with the keys of an
+    odometry line, but the stamp). A range is a number, ``"inf"``, ``"-inf"``, or null for none (REP-117).
 
 A stamp is a time in seconds; as a text it keeps its nanoseconds. The odometry of a scan is looked up at its stamp by the one rule of
-`OdometryBuffer`, so a scan waits until odometry as late as itself has arrived. Several lidars tell themselves apart by ``frame_id``; their
-scans stand in the order of their stamps.
+`OdometryBuffer`, so a scan waits until odometry as late as itself (with ``end``, as late as its last beam) has arrived. Several lidars tell
+themselves apart by ``frame_id``; their scans stand in the order of their stamps.
 """
 
 import json
 import math
 from collections import deque
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -28,19 +29,44 @@ import numpy as np
 
 from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_buffer import MAX_GAP_NS, OdometryBuffer
+from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.reader import Reader, Record
-from ial.datasets.recording import Reading
-from ial.datasets.scan import LaserScan, Mounting
+from ial.datasets.scan import LaserScan, Mounting, last_beam_ns
 from ial.datasets.stamps import format_stamp, parse_stamp
 from ial.datasets.text_log import lines
 from ial.errors import RecordingError
 from ial.pose import Pose
 
 _NUMBERS = {"angle_min", "angle_increment", "range_min", "range_max", "time_increment"}
-_WINDOW_NS = 20 * MAX_GAP_NS  # of the odometry that is kept while no scan comes
+_MOST_MESSAGES = 2**20  # that are kept while no scan can be used: an hour and a half at 200 Hz, 56 MiB
 _NEEDED = {"stamp", "angle_min", "angle_increment", "ranges"}
 
-_Waiting = tuple[int, dict[str, Any], Odometry | None]
+
+@dataclass(frozen=True)
+class _Waiting:
+    """A scan that has arrived: the stamps of its first and last beam, the arguments of `LaserScan`, the odometry at both where it says."""
+
+    stamp_ns: int
+    end_ns: int
+    scan: dict[str, Any]
+    first: Odometry | None
+    last: Odometry | None
+
+    def record(self, odometry: OdometryBuffer) -> Record:
+        """Return the scan with what is known of the odometry; messages are forgotten when they are taken."""
+        stamp, end = self.stamp_ns, self.end_ns
+        # Where its messages are forgotten already, a scan that comes too late is of no use, whatever it says about itself.
+        first = odometry.at(stamp) if self.first is None or stamp < odometry.kept_since_ns else self.first
+        sweep = None
+        if first is not None and math.isfinite(first.error_m) and self.last is not None and end != stamp:
+            sweep = odometry.between(stamp, end).joining((stamp, first), (end, self.last))
+
+        def take(since: int | None) -> OdometryPath:
+            messages = odometry.between(since, stamp)
+            odometry.forget(stamp)
+            return messages
+
+        return Record(stamp, first, {**self.scan, "sweep": sweep}, messages=take)
 
 
 class ScanStream(Reader):
@@ -65,7 +91,7 @@ class ScanStream(Reader):
         self._mounting = None if laser_pose is None else Mounting(laser_pose.x, laser_pose.y, laser_pose.theta)
 
     def _records(self) -> Iterator[Record]:
-        odometry: deque[tuple[int, Odometry]] = deque()
+        odometry = OdometryBuffer()
         waiting: deque[_Waiting] = deque()
         for line in lines(self._source) if isinstance(self._source, Path) else self._source:
             if not line.strip():
@@ -85,21 +111,25 @@ class ScanStream(Reader):
                 else:
                     yield Record(None, fault=fault)
             yield from _ready(waiting, odometry)
-        buffer = OdometryBuffer(odometry)
-        for stamp, scan, end in waiting:
-            yield Record(stamp, buffer.at(stamp), scan, end=end)
+        for scan in waiting:
+            yield scan.record(odometry)
 
-    def _take(self, odometry: deque[tuple[int, Odometry]], stamp: int, sample: Odometry) -> None:
+    def _take(self, odometry: OdometryBuffer, stamp: int, sample: Odometry) -> None:
         if not sample.valid:
             raise ValueError("odometry that is not finite")
-        if odometry and stamp < odometry[-1][0]:
+        latest = odometry.latest_ns
+        if latest is not None and stamp < latest:
             self.repaired["odometry older than the one before: left out"] += 1
             return
-        odometry.append((stamp, sample))
+        odometry.add(stamp, sample)
+        if len(odometry) > _MOST_MESSAGES:
+            # The steps over them can no longer be composed, so nothing is known of the motion up to here.
+            self.repaired[f"{_MOST_MESSAGES // 2} odometry messages without a scan that can be used: the motion over them is unknown"] += 1
+            odometry.lose(_MOST_MESSAGES // 2)
 
-    def _scan_of(self, content: dict[str, Any]) -> "_Waiting":
+    def _scan_of(self, content: dict[str, Any]) -> _Waiting:
         missing = _NEEDED - content.keys()
-        unknown = content.keys() - _NEEDED - _NUMBERS - {"laser", "frame_id", "end"}
+        unknown = content.keys() - _NEEDED - _NUMBERS - {"laser", "frame_id", "end", "odometry"}
         if missing or unknown:
             raise RecordingError(f"scan line with {'no' if missing else 'an unknown'} key '{min(missing or unknown)}'")
         laser = {"x": 0.0, "y": 0.0, "yaw": 0.0, "upside_down": False, **content.get("laser", {})}
@@ -112,8 +142,21 @@ class ScanStream(Reader):
         with np.errstate(over="ignore"):  # beyond the largest float32 lies infinity: nothing in range
             ranges = np.array([np.nan if value is None else float(value) for value in content["ranges"]], dtype=np.float32)
         frame = {"frame_id": str(content["frame_id"])} if "frame_id" in content else {}
-        end = _sample_of(content["end"]) if "end" in content else None
-        return parse_stamp(str(content["stamp"])), {**scan, **frame, "ranges": ranges, "mounting": mounting}, end
+        stamp = parse_stamp(str(content["stamp"]))
+        first, last = (_sample_of(content[key]) if key in content else None for key in ("odometry", "end"))
+        end = stamp if last is None else last_beam_ns(stamp, scan.get("time_increment", 0.0), len(ranges))
+        return _Waiting(stamp, end, {**scan, **frame, "ranges": ranges, "mounting": mounting}, first, last)
+
+
+def _ready(waiting: deque[_Waiting], odometry: OdometryBuffer) -> Iterator[Record]:
+    """Yield the scans whose odometry is known, or will never be."""
+    latest = odometry.latest_ns
+    while waiting:
+        needed = max(waiting[0].stamp_ns, waiting[0].end_ns)
+        known = latest is not None and latest >= needed
+        if not known and waiting[-1].stamp_ns <= needed + MAX_GAP_NS:
+            return
+        yield waiting.popleft().record(odometry)
 
 
 def _parsed(line: bytes) -> tuple[str, dict[str, Any]]:
@@ -138,26 +181,9 @@ def _sample_of(content: dict[str, Any]) -> Odometry:
     return Odometry(x, y, z, w, *errors)
 
 
-def _ready(waiting: deque["_Waiting"], odometry: deque[tuple[int, Odometry]]) -> Iterator[Record]:
-    """Yield the scans whose odometry is known, or will never be; forget the odometry that none can need any more."""
-    latest = odometry[-1][0] if odometry else None
-    while waiting:
-        stamp, scan, end = waiting[0]
-        known = latest is not None and latest >= stamp
-        if not known and waiting[-1][0] <= stamp + MAX_GAP_NS:
-            return
-        waiting.popleft()
-        yield Record(stamp, OdometryBuffer(odometry).at(stamp), scan, end=end)
-        while len(odometry) > 1 and odometry[1][0] <= stamp:
-            odometry.popleft()
-    while len(odometry) > 1 and odometry[0][0] < odometry[-1][0] - _WINDOW_NS:
-        odometry.popleft()
-
-
-def odometry_line(reading: Reading) -> str:
-    """Return the line of a reading's odometry."""
-    odometry = reading.odometry
-    return json.dumps({"odometry": {"stamp": format_stamp(reading.stamp_ns), **_sample(odometry)}})
+def odometry_line(stamp_ns: int, odometry: Odometry) -> str:
+    """Return the line of a message of the odometry."""
+    return json.dumps({"odometry": {"stamp": format_stamp(stamp_ns), **_sample(odometry)}})
 
 
 def _sample(odometry: Odometry) -> dict[str, float]:
@@ -165,14 +191,24 @@ def _sample(odometry: Odometry) -> dict[str, float]:
     return {**sample, **({"error_m": odometry.error_m, "error_rad": odometry.error_rad} if odometry.error_m or odometry.error_rad else {})}
 
 
-def scan_line(scan: LaserScan, end: Odometry | None = None) -> str:
-    """Return the line of a scan, with the odometry at its last beam if that is known; numbers have the digits that a float32 needs."""
+def scan_line(scan: LaserScan, odometry: Odometry | None = None) -> str:
+    """Return the line of a scan; numbers have the digits that a float32 needs.
+
+    Parameters
+    ----------
+    scan
+        The scan; the odometry at its last beam is written too if it is known.
+    odometry
+        That at its first beam, where it is no message.
+    """
     at = scan.mounting
     laser = {"x": at.x, "y": at.y, "yaw": at.yaw, "upside_down": at.upside_down}
     numbers = {name: _number(np.float32(getattr(scan, name))) for name in sorted(_NUMBERS)}
     content = {"stamp": format_stamp(scan.stamp_ns), "frame_id": scan.frame_id, "laser": laser, **numbers}
-    if end is not None:
-        content["end"] = _sample(end)
+    if odometry is not None:
+        content["odometry"] = _sample(odometry)
+    if scan.sweep is not None:
+        content["end"] = _sample(scan.sweep.last)
     text = json.dumps({"scan": content}, ensure_ascii=False)
     ranges = ", ".join(json.dumps(_number(value)) for value in scan.ranges)
     return f'{text[:-2]}, "ranges": [{ranges}]}}}}'

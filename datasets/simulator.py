@@ -1,9 +1,10 @@
 """`simulate`: a recording with exact truth, whose errors keep within known bounds.
 
 Every promise of the guarantee can be tested on it: at the true pose at most the given number of beams is bad, by the exact definition of a
-good beam, and each recorded odometry step encloses the true motion.
+good beam, and the odometry recorded from scan to scan encloses the true motion.
 """
 
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -13,7 +14,9 @@ import numpy.typing as npt
 
 from ial.datasets.in_memory import InMemoryRecording
 from ial.datasets.motion import Motion, MotionBounds
+from ial.datasets.motion_boxes import PER_SCAN
 from ial.datasets.odometry import Odometry
+from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.recording import Reading
 from ial.datasets.scan import LaserScan, Mounting
 from ial.datasets.trajectory import Trajectory
@@ -109,6 +112,7 @@ def simulate(
     seed: int,
     period_s: float = 0.1,
     start_s: float = 1.0,
+    messages: int = 1,
 ) -> Simulation:
     """Drive along a path and record scans and odometry.
 
@@ -123,26 +127,33 @@ def simulate(
     errors
         What is wrong with its readings.
     bounds
-        How far a recorded odometry step may be from the truth.
+        How far recorded odometry may be from the truth.
     seed
         The same seed gives the same bits.
     period_s, start_s
         Time between scans, and of the first.
+    messages
+        How many odometry messages each scan brings; the last comes with it.
 
     Raises
     ------
     ConfigError
-        If a pose of the path is not in a free cell, or the motion bounds are smaller than what rounding does to a pose.
+        If a pose of the path is not in a free cell, there is no message, or the motion bounds are smaller than what rounding does.
     """
+    if messages < 1:
+        raise ConfigError(f"messages is {messages}; give at least one odometry message for each scan")
     random = np.random.default_rng(seed)
-    readings = []
+    readings: list[Reading] = []
     odometry = Odometry.of(Pose(0.0, 0.0, float(random.uniform(-math.pi, math.pi))))
     for index, pose in enumerate(path):
         _check_free(grid, pose, index)
-        if index:
-            odometry = _drive(odometry, path[index - 1], pose, bounds, errors.adversarial, random)
         stamp = round(1e9 * (start_s + index * period_s))
-        readings.append(Reading(index, stamp, odometry, _scan(grid, pose, lidar, errors, stamp, random)))
+        between = OdometryPath.of()
+        if index:
+            stamps = [readings[-1].stamp_ns + (stamp - readings[-1].stamp_ns) * part // messages for part in range(messages + 1)]
+            driven = _drive(odometry, path[index - 1], pose, stamps, bounds, errors.adversarial, random)
+            odometry, between = driven.last, OdometryPath(driven.stamps_ns[1:-1], driven.numbers[1:-1])
+        readings.append(Reading(index, stamp, odometry, _scan(grid, pose, lidar, errors, stamp, random), between))
     recording = InMemoryRecording("simulation", readings)
     return Simulation(recording, Trajectory.of((reading.stamp_ns, pose) for reading, pose in zip(readings, path, strict=True)))
 
@@ -160,18 +171,30 @@ def _error(random: np.random.Generator, size: int, bound: float, adversarial: bo
     return drawn * (bound * _INSIDE)
 
 
-def _drive(before: Odometry, start: Pose, end: Pose, bounds: MotionBounds, adversarial: bool, random: np.random.Generator) -> Odometry:
-    """Return odometry whose step, enclosed by the bounds, holds the true motion."""
+def _drive(
+    before: Odometry, start: Pose, end: Pose, stamps: list[int], bounds: MotionBounds, adversarial: bool, random: np.random.Generator
+) -> OdometryPath:
+    """Return odometry at the stamps, from `before` on, which encloses the true motion; the robot moves evenly."""
     truth = Motion.between(Odometry.of(start), Odometry.of(end))
     delta = start.inverse() @ end
-    room = bounds.enclose(delta)
-    error = _error(random, 3, 1.0, adversarial) * (0.5 * (room.upper - room.lower))
+    count = len(stamps) - 1
+    at = [Pose(part * delta.x / count, part * delta.y / count, part * delta.theta / count) for part in range(count)] + [delta]
+    pieces = [one.inverse() @ other for one, other in itertools.pairwise(at)]
+    seconds = 1e-9 * (stamps[-1] - stamps[0]) / count
+    rooms = []
+    for number, piece in enumerate(pieces):
+        room = bounds.enclose(piece, seconds)
+        once = 0.0 if number == count - 1 else bounds.parts[:, PER_SCAN]  # what a scan adds, it adds with its last message
+        rooms.append(_error(random, 3, 1.0, adversarial) * (0.5 * (room.upper - room.lower) - once))
     for share in (1.0, 0.95, 0.9, 0.8, 0.6, 0.3, 0.0):  # the bound belongs to the recorded step, which may be shorter than the true one
-        dx, dy, turn = (share * error).tolist()
-        recorded = Odometry.of(before.pose @ Pose(delta.x + dx, delta.y + dy, delta.theta + turn))
-        if _within(truth, bounds.enclose(Motion.between(before, recorded))):
-            return recorded
-    raise ConfigError("the motion bounds are smaller than the rounding errors of a pose; give at least 1e-9 for both bases")
+        poses = [before.pose]
+        for piece, error in zip(pieces, rooms, strict=True):
+            dx, dy, turn = (share * error).tolist()
+            poses.append(poses[-1] @ Pose(piece.x + dx, piece.y + dy, piece.theta + turn))
+        path = OdometryPath.of(zip(stamps, [before, *map(Odometry.of, poses[1:])], strict=True))
+        if _within(truth, bounds.along(path)):
+            return path
+    raise ConfigError("the motion bounds are smaller than the rounding errors of a pose; give at least 1e-9 in per_message or per_scan")
 
 
 def _within(inner: Motion, outer: Motion) -> bool:

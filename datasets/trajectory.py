@@ -10,8 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.datasets.stamps import format_stamp, parse_stamp
-from ial.errors import OutputError, TrajectoryError
+from ial.errors import TrajectoryError
 from ial.pose import Pose, wrap
+from ial.whole_file import whole_files
 
 MAX_GAP_NS = 500_000_000  # guarantee.md: interpolated when both neighbours are at most 0.5 s away
 
@@ -152,13 +153,6 @@ def write_tum(trajectory: Trajectory, path: str | Path) -> None:
     OutputError
         If the file cannot be written.
     """
-    path = Path(path)
-    temporary = path.with_name(f".{path.name}.part")
-    try:
-        with temporary.open("w", encoding="utf-8") as file:
-            for row, stamp in enumerate(trajectory.stamps_ns.tolist()):
-                file.write(tum_line(stamp, trajectory[row]))
-        temporary.replace(path)
-    except OSError as error:
-        temporary.unlink(missing_ok=True)
-        raise OutputError(f"{path}: cannot be written ({error.strerror or error}); choose another folder") from None
+    with whole_files(path, what="the trajectory") as (lent,), lent.open("w", encoding="utf-8") as file:
+        for row, stamp in enumerate(trajectory.stamps_ns.tolist()):
+            file.write(tum_line(stamp, trajectory[row]))

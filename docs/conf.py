@@ -57,7 +57,7 @@ def draw_bounces(page):
     Path("hall.wkt").write_text(re.search(r"```text\n(POLYGON .*)", page)[1])
     for command in re.findall(r"^\$ ial (bounce (?:build|show) hall.*)$", page, re.MULTILINE):
         if "store" not in command:
-            app(shlex.split(command), standalone_mode=False)
+            app([*shlex.split(command), "--overwrite"], standalone_mode=False)
 
 
 def setup(app):

@@ -1,6 +1,5 @@
 """Maps as ROS keeps them: a YAML file beside an image (map_server of ROS 1, nav2_map_server of ROS 2)."""
 
-import os
 import warnings
 from pathlib import Path
 from typing import Any
@@ -16,6 +15,7 @@ from ial.maps.map_warning import MapWarning
 from ial.maps.occupancy_class import classify_occupancy
 from ial.maps.occupancy_grid import FREE, UNKNOWN, OccupancyGrid
 from ial.maps.pgm import encode_pgm
+from ial.whole_file import whole_files
 
 SAVED_UNKNOWN = 205  # the grey that map savers write for unknown; its occupancy is 50 / 255 = 0.19608
 _SAVED_GREY = np.array([254, 0, SAVED_UNKNOWN], dtype=np.uint8)  # of free, occupied, unknown
@@ -128,7 +128,7 @@ def _warn_about_205(image: Image, cells: ClassArray, metadata: MapMetadata, path
 def write_map(grid: OccupancyGrid, path: str | Path) -> None:
     """Write a map as a YAML file and, beside it under the same name, an image in PGM: free 254, occupied 0, unknown 205.
 
-    `read_map` gives back the same cells, and the same numbers to the last bit. Each file is written under a temporary name and renamed.
+    `read_map` gives back the same cells, and the same numbers to the last bit. The two files appear together.
 
     Raises
     ------
@@ -148,17 +148,6 @@ def write_map(grid: OccupancyGrid, path: str | Path) -> None:
         "occupied_thresh": 0.65,
         "free_thresh": 0.196,
     }
-    _write(image, encode_pgm(_SAVED_GREY[grid.cells[::-1]]))
-    _write(path, yaml.safe_dump(metadata, sort_keys=False, default_flow_style=None, allow_unicode=True).encode())
-
-
-def _write(path: Path, content: bytes) -> None:
-    temporary = path.with_name(f".{path.name}-{os.getpid()}")
-    try:
-        try:
-            temporary.write_bytes(content)
-            temporary.replace(path)
-        finally:
-            temporary.unlink(missing_ok=True)
-    except OSError as error:
-        raise OutputError(f"{path}: the map cannot be written: {error}; choose a folder that exists and is writable") from error
+    with whole_files(image, path, what="the map") as (pixels, text):
+        pixels.write_bytes(encode_pgm(_SAVED_GREY[grid.cells[::-1]]))
+        text.write_bytes(yaml.safe_dump(metadata, sort_keys=False, default_flow_style=None, allow_unicode=True).encode())

@@ -1,12 +1,14 @@
 """Boxes of poses (x, y, θ) seen from another frame, rounded outward.
 
 A rotated box is enclosed in an upright one. Each coordinate of the old frame occurs once in each of the new, so interval arithmetic gives
-the tightest such box, but for rounding. A rotation by exactly 0 only adds or subtracts the origin.
+the tightest such box, but for rounding. A rotation by exactly 0 only adds or subtracts the origin. Headings may have any turn, and come out
+in the form of `ial.contractors.intervals.angle`.
 """
 
 import numpy as np
 
 from ial.contractors import threads
+from ial.contractors.angles import wrapped
 from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.angle import wrap_angle
 from ial.contractors.intervals.arithmetic import add, sub
@@ -56,9 +58,16 @@ def boxes_from_frame(boxes: Boxes, pose: Pose) -> Boxes:
     Parameters
     ----------
     boxes
-        Boxes (x, y, θ) of shape (n, 3); θ as in `ial.contractors.intervals.angle`.
+        Boxes (x, y, θ) of shape (n, 3).
     pose
         T_outer_inner; its three numbers are taken as exact.
+
+    Raises
+    ------
+    ValueError
+        If the boxes have another dimension, or a bound is NaN.
+    RoundingModeError
+        If the processor does not round to nearest.
     """
     return _transformed(_from_frame, boxes, pose)
 
@@ -71,6 +80,7 @@ def boxes_into_frame(boxes: Boxes, pose: Pose) -> Boxes:
 def _transformed(transform, boxes: Boxes, pose: Pose) -> Boxes:  # type: ignore[no-untyped-def]
     if boxes.dimension != 3:
         raise ValueError(f"boxes have {boxes.dimension} dimensions; boxes of poses have 3: x, y, θ")
+    boxes = wrapped(boxes, 2)
     lower, upper = np.full(boxes.lower.shape, np.inf), np.full(boxes.lower.shape, -np.inf)
     threads.run(transform, len(boxes), pose.x, pose.y, pose.theta, boxes.lower, boxes.upper, lower, upper)
     return Boxes(lower, upper)

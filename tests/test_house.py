@@ -12,7 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 
 FLOORS = [
-    {"errors", "lazy", "pose", "contractors"},
+    {"errors", "whole_file", "lazy", "pose", "contractors"},
     {"maps", "datasets"},
     {"membership"},
     {"lidar", "bouncing", "compass", "odometer", "active", "particles"},
@@ -20,7 +20,8 @@ FLOORS = [
     {"cli"},
 ]
 SIBLINGS = {  # the only imports within a floor
-    "contractors": {"errors", "lazy"},  # contractors know no robot, so no pose
+    "whole_file": {"errors"},
+    "contractors": {"errors", "lazy", "whole_file"},  # contractors know no robot, so no pose
     "pose": {"errors"},
     "datasets": {"maps"},  # the simulator casts rays in a grid
     "active": {"lidar", "odometer"},

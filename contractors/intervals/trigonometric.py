@@ -25,7 +25,7 @@ from ial.contractors.intervals.error_free import (
 )
 from ial.contractors.intervals.sets import unless
 from ial.contractors.kernels import kernel
-from ial.contractors.margins import ROOT, ROUNDINGS, SERIES, SMALL, TANGENT
+from ial.contractors.margins import ROOT, SERIES, SMALL, TANGENT
 from ial.contractors.rounding import down, up
 
 # The nearest doubles to π, π/2 and 2π all lie below the exact number; one bit step above lies beyond it.
@@ -103,9 +103,10 @@ def sincos(x):  # type: ignore[no-untyped-def]
 @kernel
 def _between(start, stop, lower, upper, phase):  # type: ignore[no-untyped-def]
     """Return the range of a wave from its values at both bounds; it is (-1)^k at (k + phase)·π."""
-    margin = ROUNDINGS * (abs(lower) + abs(upper) + 1.0)  # 1/π, a product and two sums of terms below that; too much only widens
-    first = np.ceil(lower * _HALVES_PER_RADIAN - phase - margin)
-    last = np.floor(upper * _HALVES_PER_RADIAN - phase + margin)
+    # Rounding may miss an extremum that lies within 1e-10 of a bound. At that bound the wave is nearer to ±1 than its double can tell, and
+    # the steps outward reach ±1.
+    first = np.ceil(lower * _HALVES_PER_RADIAN - phase)
+    last = np.floor(upper * _HALVES_PER_RADIAN - phase)
     low = min(start, stop)
     high = max(start, stop)
     # A value of exactly 0 is the sine of exactly 0.

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ial.contractors.angles import wrapped
 from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.angle import shift_angle
 from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.contractors.kernels import kernel
-from ial.contractors.rounding import check_rounding
 
 IntArray = npt.NDArray[np.int64]
 
@@ -48,7 +48,7 @@ def cluster(boxes: Boxes, circular: Sequence[int] = ()) -> Clusters:
     boxes
         Boxes of d dimensions, none of them empty.
     circular
-        The axes that are angles in radians, equal modulo 2π, with bounds as `ial.contractors.intervals.angle.wrap_angle` writes them.
+        The axes that are angles in radians, equal modulo 2π; boxes may have any turn. Hulls have the form that `wrapped` gives.
 
     Raises
     ------
@@ -57,15 +57,12 @@ def cluster(boxes: Boxes, circular: Sequence[int] = ()) -> Clusters:
     RoundingModeError
         If the processor does not round to nearest.
     """
-    check_rounding()
+    boxes = wrapped(boxes, *circular)
     around = np.zeros(boxes.dimension, dtype=np.bool_)
-    for axis in circular:
-        if not 0 <= axis < boxes.dimension:
-            raise ValueError(f"axis {axis} was said to be circular; the boxes have the axes 0 to {boxes.dimension - 1}")
-        around[axis] = True
+    around[list(circular)] = True
     empty = boxes.empty
     if empty.any():
-        raise ValueError(f"box {empty.argmax()} of {len(boxes)} is empty or has a bound that is NaN; leave it out")
+        raise ValueError(f"box {empty.argmax()} of {len(boxes)} is empty; leave it out")
     if not len(boxes):
         return Clusters(np.empty(0, dtype=np.int64), boxes)
     order = np.argsort(_along_curve(boxes.lower, boxes.upper), kind="stable")
@@ -78,7 +75,7 @@ def cluster(boxes: Boxes, circular: Sequence[int] = ()) -> Clusters:
     for axis in sorted(set(circular)):
         by_angle = np.lexsort((boxes.lower[:, axis], labels))
         _shortest_arcs(boxes.lower, boxes.upper, axis, labels, by_angle, lower, upper)
-    return Clusters(labels, Boxes(lower, upper))
+    return Clusters(labels, wrapped(Boxes(lower, upper), *circular))
 
 
 @kernel

@@ -1,6 +1,5 @@
 """Pavings on disk."""
 
-import tempfile
 from pathlib import Path
 from typing import cast, get_args
 
@@ -8,7 +7,8 @@ import numpy as np
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.paving.limits import Limit
-from ial.errors import OutputError, PavingError
+from ial.errors import PavingError
+from ial.whole_file import whole_files
 
 _FORMAT = "ial paving 1"
 
@@ -31,28 +31,17 @@ def write(path: str | Path, inner: Boxes, boundary: Boxes, limited: Limit, nodes
     OutputError
         If it cannot be written.
     """
-    path = Path(path)
-    temporary = None
-    try:
-        with tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.", delete=False) as file:
-            temporary = Path(file.name)
-            np.savez_compressed(
-                file,
-                format=_FORMAT,
-                limited=limited,
-                nodes=nodes,
-                inner_lower=inner.lower,
-                inner_upper=inner.upper,
-                boundary_lower=boundary.lower,
-                boundary_upper=boundary.upper,
-            )
-        temporary.chmod(0o644)
-        temporary.replace(path)
-    except OSError as error:
-        raise OutputError(f"{path}: the paving cannot be written ({error.strerror or error}); choose another place") from None
-    finally:
-        if temporary is not None:
-            temporary.unlink(missing_ok=True)
+    with whole_files(path, what="the paving") as (lent,), lent.open("wb") as file:
+        np.savez_compressed(
+            file,
+            format=_FORMAT,
+            limited=limited,
+            nodes=nodes,
+            inner_lower=inner.lower,
+            inner_upper=inner.upper,
+            boundary_lower=boundary.lower,
+            boundary_upper=boundary.upper,
+        )
 
 
 def read(path: str | Path) -> tuple[Boxes, Boxes, Limit, int]:

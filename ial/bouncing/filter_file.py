@@ -1,7 +1,6 @@
 """Filters on disk: a NumPy archive (.npz) with a version and a checksum of everything in it."""
 
 import hashlib
-import io
 import json
 import zipfile
 import zlib
@@ -15,8 +14,8 @@ from ial.bouncing.bounce_filter import BounceFilter
 from ial.bouncing.cycle_places import CyclePlaces
 from ial.bouncing.setting import Setting
 from ial.bouncing.table import FilterTable
-from ial.bouncing.whole_file import write_whole
 from ial.errors import FilterError, IalError
+from ial.whole_file import whole_files
 
 _FORM, _VERSION = "ial bounce filter", 1
 _TABLE = {"successors": np.int32, "colours": np.int32, "uncertainty": np.int64, "environments": np.uint64}
@@ -52,9 +51,8 @@ def write_filter(made: BounceFilter, path: str | Path) -> None:
     arrays = {name: getattr(made.table, name) for name in _TABLE} | {name: getattr(made.places, name) for name in _PLACES}
     setting = made.setting.record()
     about = {"form": _FORM, "version": _VERSION, "setting": setting, "sha256": _checksum(setting, arrays)}
-    content = io.BytesIO()
-    np.savez_compressed(content, about=np.frombuffer(json.dumps(about).encode(), dtype=np.uint8), **arrays)
-    write_whole({Path(path): content.getvalue()}, "the filter")
+    with whole_files(path, what="the filter") as (lent,), lent.open("wb") as file:
+        np.savez_compressed(file, about=np.frombuffer(json.dumps(about).encode(), dtype=np.uint8), **arrays)
 
 
 def read_filter(path: str | Path) -> BounceFilter:

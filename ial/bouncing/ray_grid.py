@@ -101,8 +101,10 @@ def _joined(states: RaySet, walls: Walls, level: int) -> RaySet:
     middle = 0.5 * (states.lower + states.upper)
     parts = _parts(walls, level)
     behind = np.cumsum(parts)
-    part = np.floor(middle[:, 0] * parts[states.walls]) + (behind - parts)[states.walls]
-    heading = np.floor(middle[:, 1] * (2.0**level / _TWO_PI))  # at most twice around
+    # The end of a wall belongs to its last part: one further on is the first of the next wall.
+    part = np.minimum(np.floor(middle[:, 0] * parts[states.walls]), parts[states.walls] - 1.0) + (behind - parts)[states.walls]
+    # Headings go at most twice around, but for rounding.
+    heading = np.clip(np.floor(middle[:, 1] * (2.0**level / _TWO_PI)), 0.0, 2.0 ** (level + 1) - 1.0)
     _, group = np.unique(2 * states.steps.astype(np.int64) + states.arriving, return_inverse=True)
     keys = ((group * (int(behind[-1]) + 1) + part.astype(np.int64)) << (level + 1)) + heading.astype(np.int64)
     order = np.argsort(keys, kind="stable")

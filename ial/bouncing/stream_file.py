@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from ial.bouncing.real_robot import RealPose
-from ial.errors import OutputError
+from ial.whole_file import whole_files
 
 _PER_LINE = 80
 
@@ -35,11 +35,5 @@ def write_truth(poses: Iterable[RealPose], path: Path) -> None:
 
 
 def _write(text: str, path: Path) -> None:
-    """Write a file under another name first, so that no half file is left under its own."""
-    temporary = path.with_name(f".{path.name}.part")
-    try:
-        temporary.write_text(text, encoding="ascii")
-        temporary.replace(path)
-    except OSError as error:
-        temporary.unlink(missing_ok=True)
-        raise OutputError(f"{path}: the file cannot be written ({error.strerror or error}); check the folder") from None
+    with whole_files(path) as (lent,):
+        lent.write_text(text, encoding="ascii")

@@ -21,7 +21,8 @@ from ial.cli.bounce_options import (
     step_cells,
 )
 from ial.cli.bounce_options import environments as read_environments
-from ial.cli.options import Json
+from ial.cli.options import Json, Overwrite
+from ial.cli.outputs import check_outputs
 from ial.cli.terminal import say, say_json, shown
 
 
@@ -36,16 +37,16 @@ def build(
     rule: FreeRule = "inside",
     corner: CornerPolicy = "segment",
     most_states: MostStates = 2**24,
+    overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> None:
     """Build the filter that tells from bumps where a robot is, up to what it cannot tell apart."""
     from ial.bouncing.building import build_filter
     from ial.bouncing.filter_file import write_filter
     from ial.bouncing.headings import Headings
-    from ial.cli.bounce_outputs import check_outputs
     from ial.cli.bounce_report import about, lines
 
-    check_outputs([out], environments)
+    check_outputs([out], environments, overwrite)
     loaded = read_environments(environments)
     width = cell_width(loaded, cell)
     robot = Headings.of_angle(number(angle, "--angle"), headings, step_cells(step, loaded, width))

@@ -5,6 +5,8 @@ from typing import Annotated, Literal
 
 import typer
 
+from ial.cli.options import Overwrite
+from ial.cli.outputs import check_outputs
 from ial.cli.terminal import remark, say, shown
 
 
@@ -22,6 +24,7 @@ def export(
     ] = None,
     restart: Annotated[bool, typer.Option("--restart", help="Begin anew after a rejection: the robot may have been carried.")] = False,
     flash: Annotated[int, typer.Option(min=0, metavar="BYTES", help="Warn of C tables that are larger.")] = 64 * 1024,
+    overwrite: Overwrite = False,
     force: Annotated[bool, typer.Option("--force", help="Write a DOT file of any number of states.")] = False,
 ) -> None:
     """Write a filter in the form of another program."""
@@ -29,10 +32,9 @@ def export(
     from ial.bouncing.exports.c_tables import CTables
     from ial.bouncing.exports.exported_filter import ExportedFilter
     from ial.bouncing.filter_file import read_filter
-    from ial.cli.bounce_outputs import check_outputs
 
     form = formats.format_of(out) if form is None else form
-    check_outputs([out], [filter_path])
+    check_outputs(formats.files_of(out, form), [filter_path], overwrite)
     exported = ExportedFilter.of(read_filter(filter_path), minimize, restart)
     files = formats.export(exported, out, form, prefix, force)
     say(f"{len(exported.table) - 1} states and a trap in {' and '.join(shown(file) for file in files)}")

@@ -19,6 +19,8 @@ from ial.cli.bounce_options import (
     number,
     step_cells,
 )
+from ial.cli.options import Overwrite
+from ial.cli.outputs import check_outputs
 from ial.cli.terminal import say, shown
 
 if TYPE_CHECKING:
@@ -44,15 +46,15 @@ def show(
     rule: FreeRule = "inside",
     corner: CornerPolicy = "segment",
     most_states: MostStates = 2**24,
+    overwrite: Overwrite = False,
 ) -> None:
     """Draw a filter. A filter file says how it was built, so the options are for environments alone."""
     from ial.bouncing.building import all_free_cells, build_filter
     from ial.bouncing.filter_file import read_filter
     from ial.bouncing.headings import Headings
-    from ial.cli.bounce_outputs import check_outputs
     from ial.errors import ConfigError
 
-    check_outputs([out], paths)
+    check_outputs([out], paths, overwrite)
     if late := next((path for path in paths[1:] if path.suffix == ".npz"), None):
         raise ConfigError(f"{late}: a filter comes first, and its environments behind it: {late.name} ENV …")
     if paths[0].suffix == ".npz":

@@ -6,6 +6,8 @@ from typing import Annotated
 import typer
 
 from ial.cli.bounce_options import number
+from ial.cli.options import Overwrite
+from ial.cli.outputs import check_outputs
 from ial.cli.terminal import say, shown
 
 
@@ -24,6 +26,7 @@ def simulate(
         tuple[str, str, str] | None, typer.Option(metavar="X Y DEGREES", help="Where to start; at random if it is left out.")
     ] = None,
     truth: Annotated[Path | None, typer.Option(metavar="CSV", help="Where to write the pose behind each observation.")] = None,
+    overwrite: Overwrite = False,
 ) -> None:
     """Drive a bouncing robot through an environment, with real geometry and errors within bounds, and write down what it observes."""
     from itertools import islice
@@ -31,10 +34,9 @@ def simulate(
     from ial.bouncing.motion_bounds import MotionBounds
     from ial.bouncing.real_robot import RealRobot
     from ial.bouncing.stream_file import write_stream, write_truth
-    from ial.cli.bounce_outputs import check_outputs
     from ial.maps.environment import load_environment
 
-    check_outputs([out] if truth is None else [out, truth], [environment])
+    check_outputs([out] if truth is None else [out, truth], [environment], overwrite)
     loaded = load_environment(environment)
     bounds = MotionBounds(number(noise_turn, "--noise-turn"), number(noise_step, "--noise-step"), noise_count)
     place = None

@@ -1,15 +1,17 @@
 """`ial bounds`: which bounds a recording keeps, and a configuration to paste."""
 
-import json
 from pathlib import Path
 from typing import Annotated, Literal
 
 import typer
 
-from ial.cli.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, ScanTopics, Semantics, pose_of
+from ial.cli.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, Overwrite, ScanTopics, Semantics, pose_of
 from ial.cli.out_folder import stamped_folder
-from ial.cli.terminal import progress, say, say_json, shown
+from ial.cli.outputs import check_folder
+from ial.cli.terminal import progress, remark, say, say_json, shown
 from ial.errors import ConfigError
+
+_FILES = ("bounds.json", "config.yaml", "failures.npz", "picture.png")  # the record first
 
 
 def bounds(
@@ -34,6 +36,7 @@ def bounds(
     laser_pose: LaserPose = None,
     semantics: Semantics = "nav2",
     map_topic: MapTopic = None,
+    overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> None:
     """Measure how far beams and odometry are from a reference, and suggest bounds; draw where beams fail.
@@ -54,8 +57,10 @@ def bounds(
 
     resolved = resolve(config, settings or ())
     folder_path = out or stamped_folder("bounds-" + ("sample" if recording is None else recording.name))
+    inputs = Inputs(recording, map_path, scan_topic or (), odom_topic, pose_of(laser_pose), semantics, map_topic)
+    replaces = check_folder(folder_path, _FILES, [*inputs.paths, config, truth], overwrite)
     with ResultFolder(folder_path) as folder:
-        source, grid = Inputs(recording, map_path, scan_topic or (), odom_topic, pose_of(laser_pose), semantics, map_topic).open()
+        source, grid = inputs.open()
         survey = BoundsSurvey(grid, resolved)
         if truth is None:
             pairs = own_poses(source, grid, resolved, start, stop, every)
@@ -67,12 +72,14 @@ def bounds(
             fault = "its stamps do not meet those of the scans" if truth is not None else "the robot was never localized; give --truth"
             raise ConfigError(f"{source.name}: no scan has a reference pose: {fault}")
         suggestion = survey.suggestion()
-        record = {"circular": truth is None, **survey.record(), "suggestion": config_record(suggestion)}
-        folder.write("bounds.json", json.dumps(record, indent=2, allow_nan=False, ensure_ascii=False) + "\n")
         folder.write("config.yaml", config_yaml(suggestion))
         failures = survey.failures
         failures.save(folder.place("failures.npz"))
         draw_failures(folder.place("picture.png"), grid, source.name, failures.cell_m, failures.good, failures.ended, failures.passed)
+        record = {"circular": truth is None, **survey.record(), "suggestion": config_record(suggestion)}
+        record = folder.conclude("bounds.json", record)
+    if replaces:
+        remark("note", f"{shown(folder_path)}: these results are in the place of those of an earlier run", "cyan")
     if as_json:
         say_json(record)
         return

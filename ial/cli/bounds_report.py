@@ -36,7 +36,8 @@ def lines(record: Mapping[str, Any], config: LocalizerConfig) -> Iterator[str]:
     if motion["steps"]:
         yield _row("error of dx or dy, m", [f"{motion['translation_m'][each]:.3f}" for each in head], 26)
         yield _row("error of the turn, °", [f"{math.degrees(motion['rotation_rad'][each]):.2f}" for each in head], 26)
-        yield f"the motion bounds hold in {motion['held']:.1%} of {motion['steps']} steps"
+        each = motion["messages"] / motion["steps"]
+        yield f"the motion bounds hold in {motion['held']:.1%} of {motion['steps']} steps of {each:.1f} odometry messages each"
     yield ""
     before, after = config_record(config), record["suggestion"]
     changed = list(_changes(before, after))

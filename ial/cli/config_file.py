@@ -14,6 +14,10 @@ from ial.results.config_record import config_of, config_record
 
 _PREFIX = "IAL_"
 _LIDAR = {"range_error_m": 0.0, "bearing_error_rad": 0.0}
+_BASE_IS_GONE = (
+    "has become two: per_scan, added once from each scan to the next, and per_message, added for each odometry message between them; "
+    "give the old value as per_scan if it was measured from scan to scan, and as per_message if it is of one message"
+)
 _OTHER_VARIABLES = ("IAL_THREADS", "IAL_CACHE_DIR", "IAL_DATA", "IAL_ITF1788")
 
 
@@ -27,9 +31,9 @@ def resolve(
     file
         A YAML file with any of the keys.
     settings
-        ``KEY=VALUE`` texts from the command line, with dots in the key: ``motion.translation.base=0.2``.
+        ``KEY=VALUE`` texts from the command line, with dots in the key: ``motion.translation.per_scan=0.2``.
     environment
-        The variables; a key is called ``IAL_`` and its capitals there, with ``_`` for dots: ``IAL_MOTION_TRANSLATION_BASE``.
+        The variables; a key is called ``IAL_`` and its capitals there, with ``_`` for dots: ``IAL_MOTION_TRANSLATION_PER_SCAN``.
     named
         Values of options of their own; None where one was not given.
 
@@ -57,13 +61,15 @@ def _layers(
         if variable in names:
             yield variable, _nested(names[variable], _parsed(environment[variable], variable))
         elif variable.startswith(_PREFIX) and variable not in _OTHER_VARIABLES:
+            if variable.startswith(f"{_PREFIX}MOTION_") and variable.endswith("_BASE"):
+                raise ConfigError(f"the environment variable {variable} {_BASE_IS_GONE}")
             close = difflib.get_close_matches(variable, [*names, *_OTHER_VARIABLES], 1)
             hint = f"did you mean {close[0]}?" if close else f"variables that are known begin with {', '.join(sorted(names)[:3])}, …"
             raise ConfigError(f"the environment variable {variable} is no setting of ial; unset it, or correct it: {hint}")
     for setting in settings:
         key, equals, value = setting.partition("=")
         if not equals or not key.strip():
-            raise ConfigError(f"--set {setting}: give KEY=VALUE, such as --set motion.translation.base=0.2")
+            raise ConfigError(f"--set {setting}: give KEY=VALUE, such as --set motion.translation.per_scan=0.2")
         yield f"--set {setting}", _nested(key.strip().split("."), _parsed(value, f"--set {setting}"))
     for key, value in named.items():
         if value is not None:
@@ -161,6 +167,8 @@ def _fault(fault: Mapping[str, Any], record: Mapping[str, Any]) -> str:
     """Return what is wrong with a value, and what is allowed."""
     path = [str(part) for part in fault["loc"]]
     key = ".".join(path)
+    if path[0] == "motion" and path[-1] == "base":
+        return f"the key '{key}' {_BASE_IS_GONE}"
     if fault["type"] == "extra_forbidden":
         level: Any = config_record(LocalizerConfig())
         for part in path[:-1]:

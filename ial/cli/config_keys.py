@@ -15,14 +15,16 @@ def _number(value: Any) -> Any:
     return value
 
 
-def _outliers(value: Any) -> int | float | Literal["auto"]:
+def _outliers(value: Any) -> int | float | str:
     """Return the same as `_share`, or the word auto."""
     return "auto" if value == "auto" else _share(value)
 
 
-def _share(value: Any) -> int | float:
-    """Keep the difference between 1, one beam, and 1.0, all of them."""
+def _share(value: Any) -> int | float | str:
+    """Keep the difference between 1, one beam, and 1.0 or 1/1, all of them."""
     text = value.strip() if isinstance(value, str) else value
+    if isinstance(text, str) and "/" in text:
+        return text
     try:
         number = int(text) if isinstance(text, str) and text.isdigit() else float(text) if isinstance(text, str) else text
     except ValueError:
@@ -34,7 +36,7 @@ def _share(value: Any) -> int | float:
 
 Bound = Annotated[float, BeforeValidator(_number), Field(ge=0.0, allow_inf_nan=False)]
 Size = Annotated[float, BeforeValidator(_number), Field(gt=0.0, allow_inf_nan=False)]
-Share = Annotated[int | float, PlainValidator(_share)]
+Share = Annotated[int | float | str, PlainValidator(_share)]
 Count = Annotated[int, BeforeValidator(_number), Field(ge=1)]
 
 
@@ -43,19 +45,21 @@ class _Keys(BaseModel):
 
 
 class ErrorBoundKeys(_Keys):
-    """``base + per_metre · |translation| + per_radian · |rotation|`` of one recorded odometry step."""
+    """What a recorded motion may be wrong by, for each message of the odometry and once for each scan; 0 where a key is left out."""
 
-    base: Bound = Field(description="m for a translation, rad for a rotation")
-    per_metre: Bound = Field(description="added for each metre travelled: m/m or rad/m")
-    per_radian: Bound = Field(description="added for each radian turned: m/rad or rad/rad")
+    per_message: Bound = Field(0.0, description="added for each odometry message: m or rad")
+    per_metre: Bound = Field(0.0, description="added for each metre travelled: m/m or rad/m")
+    per_radian: Bound = Field(0.0, description="added for each radian turned: m/rad or rad/rad")
+    per_second: Bound = Field(0.0, description="added for each second: m/s or rad/s")
+    per_scan: Bound = Field(0.0, description="added once for each scan: m or rad")
 
 
 class MotionKeys(_Keys):
-    """How far one recorded odometry step may be from the truth."""
+    """How far recorded odometry may be from the truth."""
 
     translation: ErrorBoundKeys = Field(description="dx, and dy, m")
     rotation: ErrorBoundKeys = Field(description="dθ, rad")
-    sideways: ErrorBoundKeys | None = Field(description="dy alone, m, with all three keys; null: as translation")
+    sideways: ErrorBoundKeys | None = Field(description="dy alone, m; null: as translation")
 
 
 class LidarKeys(_Keys):
@@ -97,7 +101,7 @@ class ConfigKeys(_Keys):
     map_error_m: Bound = Field(description="how far an obstacle may be from its occupied cells, m")
     motion: MotionKeys = Field(description="bounds of the odometry")
     lidars: dict[str, LidarKeys] = Field(description="other errors of single lidars, by the frame of their scans")
-    outliers: Annotated[int | float | Literal["auto"], PlainValidator(_outliers)] = Field(
+    outliers: Annotated[int | float | str, PlainValidator(_outliers)] = Field(
         description="how many beams may be bad: a number, a fraction, or auto"
     )
     outlier_margin: Share = Field(description="with auto: how many more than needed, a number or a fraction")

@@ -6,7 +6,8 @@ from typing import Annotated
 
 import typer
 
-from ial.cli.options import LaserPose, OdomTopic, ScanTopics, pose_of
+from ial.cli.options import LaserPose, OdomTopic, Overwrite, ScanTopics, pose_of
+from ial.cli.outputs import STDOUT, check_outputs, check_places
 from ial.cli.terminal import remark, say
 
 
@@ -24,6 +25,7 @@ def convert(
     scan_topic: ScanTopics = None,
     odom_topic: OdomTopic = None,
     laser_pose: LaserPose = None,
+    overwrite: Overwrite = False,
 ) -> None:
     """Write a recording as .mcap, .bag or JSON lines; localizing that gives the same enclosures, bit for bit."""
     from ial.datasets.conversion import convert, convert_to_lines
@@ -35,8 +37,10 @@ def convert(
         raise OutputError("one file is written: give RECORDING OUT for a bag, or --jsonl FILE for JSON lines")
     path = recording or sample_recording_path()
     file = target or lines
-    if file is not None and file.exists() and path.exists() and file.samefile(path):
-        raise OutputError(f"{file}: this is the recording itself; give another file to write to")
+    if file is None or str(lines) == "-":
+        check_places([STDOUT], [path])
+    else:
+        check_outputs([file], [path], overwrite)
     source = open_recording(path, scan_topic or (), odom_topic, pose_of(laser_pose))
     if target is not None:
         count = convert(source, target)

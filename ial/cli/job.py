@@ -1,6 +1,5 @@
 """`Job`: what `ial localize` was asked to do, and the doing of it."""
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,7 +9,6 @@ import numpy as np
 
 from ial.cli.terminal import progress
 from ial.contractors.boxes import Boxes
-from ial.contractors.intervals.angle import wrap_angle
 from ial.contractors.threads import get_threads
 from ial.datasets.opening import open_recording
 from ial.datasets.recording import Recording
@@ -35,6 +33,9 @@ from ial.results.trajectory import TrajectoryFile
 from ial.study.containment import Containment
 from ial.study.reference import TruthFrame
 
+FILES = ("summary.json", "config.yaml", "enclosures.jsonl", "events.jsonl", "picture.png", "result.mcap", "trajectory.tum")
+"""What a run writes, its record first."""
+
 
 @dataclass(frozen=True)
 class Inputs:
@@ -58,6 +59,11 @@ class Inputs:
     semantics: Semantics = "nav2"
     map_topic: str | None = None
 
+    @property
+    def paths(self) -> tuple[Path, Path]:
+        """Where the recording and the map are."""
+        return self.recording or sample_recording_path(), self.map_path or sample_map_path()
+
     def open(self) -> tuple[Recording, OccupancyGrid]:
         """Open the recording and read the map.
 
@@ -66,8 +72,9 @@ class Inputs:
         RecordingError, MapError
             If one of them cannot be read.
         """
-        recording = open_recording(self.recording or sample_recording_path(), self.scan_topics, self.odom_topic, self.laser_pose)
-        return recording, load_map(self.map_path or sample_map_path(), self.semantics, self.map_topic)
+        path, map_path = self.paths
+        recording = open_recording(path, self.scan_topics, self.odom_topic, self.laser_pose)
+        return recording, load_map(map_path, self.semantics, self.map_topic)
 
 
 @dataclass(frozen=True)
@@ -126,9 +133,8 @@ class Job:
                 if containment is not None:
                     containment.add(step, estimate)
             folder.close()
-            record = summary.as_dict(_measures(containment))
             folder.write("config.yaml", config_yaml(self.config))
-            folder.write("summary.json", json.dumps(record, indent=2, allow_nan=False, ensure_ascii=False) + "\n")
+            record = folder.conclude("summary.json", summary.as_dict(_measures(containment)))
         return summary, record
 
     def _attach_sinks(self, folder: ResultFolder, recording: Recording, grid: OccupancyGrid, containment: Containment | None) -> None:
@@ -163,9 +169,7 @@ class Job:
                 f"--initial {x:g} {y:g} {theta:g} --initial-radius {position:g} {heading:g} is no region; give finite numbers, and "
                 "radii that are not negative"
             )
-        box = Boxes.around([self.initial], [position, position, heading])
-        box.lower[0, 2], box.upper[0, 2] = wrap_angle(box.lower[0, 2], box.upper[0, 2])
-        return box
+        return Boxes.around([self.initial], [position, position, heading])
 
     def _options(self) -> dict[str, Any]:
         """Return what was asked for, under the names of the options, as plain values that JSON can hold."""

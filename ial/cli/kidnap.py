@@ -5,7 +5,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ial.cli.options import LaserPose, OdomTopic, RecordingPath, ScanTopics, pose_of
+from ial.cli.options import LaserPose, OdomTopic, Overwrite, RecordingPath, ScanTopics, pose_of
+from ial.cli.outputs import check_outputs
 from ial.cli.terminal import say
 
 if TYPE_CHECKING:
@@ -24,20 +25,17 @@ def kidnap(
     scan_topic: ScanTopics = None,
     odom_topic: OdomTopic = None,
     laser_pose: LaserPose = None,
+    overwrite: Overwrite = False,
 ) -> None:
     """Write a recording in which the robot is carried from place to place while odometry and clock go on as if nothing happened."""
     from ial.datasets.conversion import convert
     from ial.datasets.kidnapping import kidnap
     from ial.datasets.opening import open_recording
     from ial.datasets.trajectory import read_tum, write_tum
-    from ial.errors import OutputError
 
     jumps = [_parsed(text) for text in at]
-    if target.exists() and recording.exists() and target.samefile(recording):
-        raise OutputError(f"{target}: this is the recording itself; give another file to write to")
     beside = target.with_suffix(".tum")
-    if truth is not None and truth.exists() and beside.exists() and beside.samefile(truth):
-        raise OutputError(f"{beside}: this is the reference itself; give OUT another name, or the new reference would replace it")
+    check_outputs([target] if truth is None else [target, beside], [recording, truth], overwrite)
     reference = None if truth is None else read_tum(truth)
     kidnapped, moved = kidnap(open_recording(recording, scan_topic or (), odom_topic, pose_of(laser_pose)), jumps, reference)
     count = convert(kidnapped, target)

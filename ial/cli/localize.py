@@ -5,10 +5,11 @@ from typing import Annotated, Literal
 
 import typer
 
-from ial.cli.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, ScanTopics, Semantics, pose_of
+from ial.cli.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, Overwrite, ScanTopics, Semantics, pose_of
 from ial.cli.out_folder import point_latest, stamped_folder
+from ial.cli.outputs import check_folder
 from ial.cli.report import report
-from ial.cli.terminal import say, say_json, shown
+from ial.cli.terminal import remark, say, say_json, shown
 from ial.errors import ConfigError
 
 NEVER_LOCALIZED = 3
@@ -50,6 +51,7 @@ def localize(
     semantics: Semantics = "nav2",
     map_topic: MapTopic = None,
     threads: Annotated[int | None, typer.Option(metavar="N", min=1, help="Threads of the kernels; all cores by default.")] = None,
+    overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> None:
     """Find, for every scan, all poses that a recording, a map and the error bounds allow.
@@ -71,14 +73,17 @@ def localize(
     if (initial is None) != (initial_radius is None):
         raise ConfigError("--initial X Y θ and --initial-radius M RAD belong together; give both")
 
-    from ial.cli.job import Inputs, Job
+    from ial.cli.job import FILES, Inputs, Job
     from ial.contractors.threads import set_threads
 
     set_threads(threads)
     inputs = Inputs(recording, map_path, scan_topic or (), odom_topic, pose_of(laser_pose), semantics, map_topic)
     folder = out or stamped_folder("sample" if recording is None else str(recording))
     job = Job(inputs, resolved, folder, start, stop, every, static, truth, truth_frame, initial, initial_radius)
+    replaces = check_folder(folder, FILES, [*inputs.paths, config, truth], overwrite)
     summary, record = job.run()
+    if replaces:
+        remark("note", f"{shown(folder)}: these results are in the place of those of an earlier run", "cyan")
     if out is None:
         point_latest(folder)
     if as_json:

@@ -26,6 +26,7 @@ Semantics = Annotated[
 ]
 MapTopic = Annotated[str | None, typer.Option(metavar="TOPIC", help="The map's topic, if MAP is a recording with several.")]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")]
+Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace files that exist; what the command reads is never replaced.")]
 ConfigPath = Annotated[Path | None, typer.Option("--config", metavar="FILE", help="A YAML file with the configuration.")]
 
 

@@ -20,10 +20,10 @@ def stamped_folder(recording: str) -> Path:
 
 
 def point_latest(folder: Path) -> None:
-    """Let the link `latest` beside a folder lead to it; a file of that name that is no link is left alone."""
+    """Let the link `latest` beside a folder lead to it; anything of that name that is no link to a neighbour is left alone."""
     link = folder.with_name(_LATEST)
     fresh = folder.with_name(f".{_LATEST}-{os.getpid()}")
     with contextlib.suppress(OSError):  # a file system without links has no latest
-        if link.is_symlink() or not link.exists():
+        if (link.is_symlink() and len(link.readlink().parts) == 1) or not os.path.lexists(link):
             fresh.symlink_to(folder.name)
             fresh.replace(link)

@@ -6,7 +6,8 @@ from typing import Annotated
 
 import typer
 
-from ial.cli.options import ConfigPath, LaserPose, MapTopic, Semantics, pose_of
+from ial.cli.options import ConfigPath, LaserPose, MapTopic, Overwrite, Semantics, pose_of
+from ial.cli.outputs import check_outputs
 from ial.cli.terminal import say, shown
 from ial.errors import ConfigError
 
@@ -29,6 +30,7 @@ def simulate(
     config: ConfigPath = None,
     semantics: Semantics = "nav2",
     map_topic: MapTopic = None,
+    overwrite: Overwrite = False,
 ) -> None:
     """Drive a robot at random through a map and record it; errors stay within bounds, those of the odometry within the configured ones."""
     from ial.cli.config_file import resolve
@@ -44,6 +46,8 @@ def simulate(
     for name, value in sizes.items():
         if not (math.isfinite(value) and value > 0.0):
             raise ConfigError(f"--{name} is {value}; give a finite number above 0")
+    truth = out.with_suffix(".tum")
+    check_outputs([out, truth], [map_path, config], overwrite)
     bounds = resolve(config).bounds.motion
     grid = load_map(map_path, semantics, map_topic)
     at = pose_of(laser_pose)
@@ -53,7 +57,6 @@ def simulate(
     path = random_walk(grid, scans, seed, step_m, turn_rad)
     simulation = drive(grid, path, lidar, errors, bounds, seed, period_s)
     count = convert(simulation.recording, out)
-    truth = out.with_suffix(".tum")
     write_tum(simulation.truth, truth)
     say(f"{count} scans written to {shown(out)}, the truth to {shown(truth)}")
     say(f"ial localize {shown(out)} --map {shown(map_path)} --truth {shown(truth)}")

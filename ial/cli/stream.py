@@ -5,6 +5,7 @@ Its options are read by argparse: typer imports pydantic, which a small computer
 
 import argparse
 import math
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -23,6 +24,8 @@ def stream(arguments: Sequence[str]) -> None:
         raise ConfigError(f"no map to localize in; give --map MAP (the one of the embedded recording is {sample_map_path()})")
     if chosen.deadline is not None and not 0.0 < chosen.deadline < math.inf:
         raise ConfigError(f"--deadline {chosen.deadline:g}: give a number of seconds above 0")
+    state = None if chosen.state is None else Path(os.path.realpath(chosen.state))  # a link to it is kept
+    _check_outputs(chosen, state)
     from ial.cli.config_file import resolve
     from ial.cli.streaming import Streaming
     from ial.contractors.threads import set_threads
@@ -33,11 +36,22 @@ def stream(arguments: Sequence[str]) -> None:
         map_path=chosen.map,
         config=resolve(chosen.config, chosen.set, max_seconds=chosen.deadline),
         out=chosen.out,
-        state=chosen.state,
+        state=state,
+        overwrite=chosen.overwrite,
         laser_pose=None if chosen.laser_pose is None else Pose(*chosen.laser_pose),
         semantics=chosen.map_semantics,
         map_topic=chosen.map_topic,
     ).run()
+
+
+def _check_outputs(chosen: argparse.Namespace, state: Path | None) -> None:
+    from ial.cli.outputs import STDIN, STDOUT, check_outputs, check_places
+    from ial.whole_file import unfinished
+
+    states = [] if state is None else [state, unfinished(state)]
+    check_places([chosen.out or STDOUT, *states], [chosen.recording or STDIN, chosen.map, chosen.config])
+    if chosen.out is not None and (state is None or not state.exists()):  # else the file is known by the state
+        check_outputs([chosen.out], [], chosen.overwrite)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -57,6 +71,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--state", metavar="FILE", type=Path, help="kept up to date after every scan: a run that was killed goes on from there"
     )
+    parser.add_argument("--overwrite", action="store_true", help="replace FILE of --out if it exists when a run begins")
     parser.add_argument(
         "--laser-pose", metavar=("X", "Y", "YAW"), nargs=3, type=float, help="where the laser sits in base_link, metres and radians"
     )

@@ -11,6 +11,7 @@ from pathlib import Path
 from types import FrameType, TracebackType
 from typing import Any, BinaryIO
 
+from ial.cli.answer_file import AnswerFile
 from ial.cli.terminal import remark
 from ial.datasets.opening import open_recording
 from ial.datasets.recording import Recording
@@ -26,8 +27,6 @@ from ial.maps.map_metadata import Semantics
 from ial.pose import Pose
 from ial.results.enclosures import enclosure_line
 from ial.results.latencies import Latencies
-
-_OPENING = b'{"stamp": '
 
 
 class _EndError(Exception):
@@ -84,6 +83,8 @@ class Streaming:
         The file to write to; standard output if there is none.
     state
         The file of the checkpoint, if one is kept.
+    overwrite
+        Whether a run that begins may replace the file to write to.
     laser_pose
         As in `open_recording`.
     """
@@ -93,6 +94,7 @@ class Streaming:
     config: LocalizerConfig
     out: Path | None = None
     state: Path | None = None
+    overwrite: bool = False
     laser_pose: Pose | None = None
     semantics: Semantics = "nav2"
     map_topic: str | None = None
@@ -105,8 +107,6 @@ class Streaming:
         IalError
             If an input cannot be used or the lines cannot be written.
         """
-        if self.state is not None and not self.state.parent.is_dir():
-            raise OutputError(f"{self.state}: there is no folder {self.state.parent} to keep the state in; make it, or choose another")
         times = Latencies()
         statuses: Counter[str] = Counter()
         with ExitStack() as stack:
@@ -114,18 +114,23 @@ class Streaming:
             localizer = Localizer(load_map(self.map_path, self.semantics, self.map_topic), config=self.config)
             checkpoint = None if self.state is None else Checkpoint.load(self.state, localizer)
             if checkpoint is not None:
-                localizer.resume(checkpoint.poses)
-            file = self._opened(stack, checkpoint)
+                localizer.resume(checkpoint.poses, same_start=True)
+            out = self._out(checkpoint)
             warm(self.config)
             mine = fingerprint(localizer)
             if checkpoint is not None:
                 remark("note", f"goes on behind scan {checkpoint.mark.index}, as {self.state} says", "cyan")
+            if out is not None:
+                stack.enter_context(out)
             source = self._source(ending)
             for step, estimate in localize(source, localizer, after=None if checkpoint is None else checkpoint.mark):
-                self._write(file, enclosure_line(step, estimate, timed=False))
+                line = enclosure_line(step, estimate, timed=False)
+                if out is None:  # the line comes first: after a kill it may come twice, but is never lost
+                    _print(line)
                 if self.state is not None:
-                    written = 0 if self.out is None else file.tell()
-                    Checkpoint(step.mark, localizer.poses, written, mine).save(self.state)
+                    Checkpoint(step.mark, localizer.poses, None if out is None else out.before(line), mine).save(self.state)
+                if out is not None:  # the state comes first: after a kill it knows what is missing
+                    out.append(line.encode())
                 times.add(estimate.elapsed_s)
                 statuses[estimate.status] += 1
                 if ending.wanted:
@@ -137,44 +142,26 @@ class Streaming:
             return open_recording(self.recording, laser_pose=self.laser_pose)
         return ScanStream(ending.lines(sys.stdin.buffer), "standard input", self.laser_pose)
 
-    def _opened(self, stack: ExitStack, checkpoint: Checkpoint | None) -> BinaryIO:
-        """Return the file to write to, cut to what the checkpoint knows of: a line behind that is written once more."""
-        if self.out is None:
-            return sys.stdout.buffer
-        written = 0 if checkpoint is None else checkpoint.written
-        if self.out.is_dir():
-            raise OutputError(f"{self.out}: is a folder; name the file in it that shall hold the lines")
-        try:
-            held = self.out.stat().st_size if self.out.exists() else 0
-            if held < written:
-                raise OutputError(f"{self.out}: holds {held} bytes, but {self.state} knows of {written}; remove both to begin anew")
-            if held and checkpoint is None and not (self.state is not None and _begun(self.out)):
-                raise OutputError(f"{self.out}: exists already; give the --state it belongs to, or another file")
-            file = stack.enter_context(self.out.open("r+b" if held else "w+b"))
-            file.truncate(written)
-            file.seek(written)
-        except OSError as error:
-            raise OutputError(f"{self.out}: cannot be written ({error.strerror or error}); choose another file") from None
-        return file
-
-    def _write(self, file: BinaryIO, line: str) -> None:
-        try:
-            file.write(line.encode())
-            file.flush()
-        except BrokenPipeError:
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what closes at exit shall not fail again
-            raise OutputError("nobody reads the lines any more; the state, if one is kept, is that before this line") from None
-        except OSError as error:
+    def _out(self, checkpoint: Checkpoint | None) -> AnswerFile | None:
+        """Return the file to write to, which is the one that the checkpoint belongs to; None for standard output."""
+        known = None if checkpoint is None else checkpoint.output
+        if checkpoint is not None and (known is None) != (self.out is None):
+            belongs = "standard output" if known is None else known.path
             raise OutputError(
-                f"{self.out or 'standard output'}: cannot be written ({error.strerror or error}); is the disk full?"
-            ) from None
+                f"{self.state}: this state belongs to a run that wrote to {belongs}; go on there, or begin anew with another --state"
+            )
+        return None if self.out is None else AnswerFile(self.out, known, self.overwrite)
 
 
-def _begun(path: Path) -> bool:
-    """Return whether a file holds nothing but a first line, or its beginning: killed there, a run has not written its state yet."""
-    with path.open("rb") as file:
-        line = file.readline()
-        return line[: len(_OPENING)] == _OPENING[: len(line)] and not file.read(1)
+def _print(line: str) -> None:
+    try:
+        sys.stdout.buffer.write(line.encode())
+        sys.stdout.buffer.flush()
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what closes at exit shall not fail again
+        raise OutputError("nobody reads the lines any more; the state, if one is kept, is that before this line") from None
+    except OSError as error:
+        raise OutputError(f"standard output: cannot be written ({error.strerror or error}); is the disk full?") from None
 
 
 def _close(source: Recording, statuses: Counter[str], times: Latencies) -> None:

@@ -7,9 +7,11 @@ from ial.cli.terminal import say
 
 def warm() -> None:
     """Compile everything that the localizer runs, so that the first scan of a robot does not wait; needed once after an installation."""
-    from ial.contractors.kernels import cache_folder
+    from ial.contractors.kernel_folder import kernel_folder
     from ial.lidar.warming import warm
 
     begun = time.perf_counter()
     warm()
-    say(f"the kernels are in {cache_folder()} ({time.perf_counter() - begun:.1f} s)")
+    folder = kernel_folder()
+    where = f"are in {folder.path}" if folder.keeps else "could not be kept, so the next start compiles them again"
+    say(f"the kernels {where} ({time.perf_counter() - begun:.1f} s)")

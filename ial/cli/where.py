@@ -5,7 +5,8 @@ from typing import Annotated
 
 import typer
 
-from ial.cli.options import ConfigPath, Json, LaserPose, OdomTopic, ScanTopics, Semantics, pose_of
+from ial.cli.options import ConfigPath, Json, LaserPose, OdomTopic, Overwrite, ScanTopics, Semantics, pose_of
+from ial.cli.outputs import check_outputs
 from ial.cli.terminal import progress, say, say_json
 from ial.errors import ConfigError
 
@@ -29,6 +30,7 @@ def where(
     odom_topic: OdomTopic = None,
     laser_pose: LaserPose = None,
     semantics: Semantics = "nav2",
+    overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> None:
     """Localize a recording in several maps at once, and say in which of them the robot can be: the others are proved impossible."""
@@ -42,11 +44,14 @@ def where(
     from ial.lidar.atlas import Atlas
     from ial.maps.loading import load_map
 
+    path = recording or sample_recording_path()
+    check_outputs([] if out is None else [out], [path, *maps, config], overwrite)
     resolved = resolve(config, settings or ())
-    source = open_recording(recording or sample_recording_path(), scan_topic or (), odom_topic, pose_of(laser_pose))
+    source = open_recording(path, scan_topic or (), odom_topic, pose_of(laser_pose))
     atlas = Atlas({name: load_map(path, semantics) for name, path in named(maps).items()}, resolved)
     with Lines(out) as lines:
-        for step in progress(steps(source, resolved.bounds.motion, start, stop, every), None, Path(source.name).name):
+        chosen = steps(source, resolved.bounds.motion, start, stop, every, no_return=resolved.free_space.no_return)
+        for step in progress(chosen, None, Path(source.name).name):
             lines.add(step, atlas.update(step.motion, step.scan))
     if as_json:
         say_json(lines.record())

@@ -8,10 +8,11 @@ from types import TracebackType
 from typing import Any
 
 from ial.datasets.recording import Step
-from ial.errors import ConfigError, OutputError
+from ial.errors import ConfigError
 from ial.lidar.atlas import Whereabouts
 from ial.results.enclosures import hypothesis_record
 from ial.results.json_lines import json_line
+from ial.whole_file import whole_files
 
 
 def named(paths: Sequence[Path]) -> dict[str, Path]:
@@ -44,8 +45,6 @@ class Lines(AbstractContextManager["Lines"]):
         self._since: dict[str, int | None] = {}
         self._scans = 0
         self.last: Whereabouts | None = None
-        if path is not None and not path.parent.is_dir():
-            raise OutputError(f"{path}: cannot be written (there is no such folder); choose another file")
 
     def add(self, step: Step, found: Whereabouts) -> None:
         """Take the answer to one scan."""
@@ -73,13 +72,8 @@ class Lines(AbstractContextManager["Lines"]):
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
         if kind is not None or self._path is None:
             return
-        temporary = self._path.with_name(f".{self._path.name}.part")
-        try:
-            temporary.write_text("".join(self._text), encoding="utf-8")
-            temporary.replace(self._path)
-        except OSError as fault:
-            temporary.unlink(missing_ok=True)
-            raise OutputError(f"{self._path}: cannot be written ({fault.strerror or fault}); is the disk full?") from None
+        with whole_files(self._path) as (lent,):
+            lent.write_text("".join(self._text), encoding="utf-8")
 
     def record(self) -> dict[str, Any]:
         """Return the outcome as plain values that JSON can hold."""

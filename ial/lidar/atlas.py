@@ -2,21 +2,22 @@
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
+from ial.contractors.boxes import Boxes
 from ial.datasets.motion import Motion
 from ial.datasets.scan import LaserScan
 from ial.errors import ConfigError
+from ial.lidar.allowance import allowing
 from ial.lidar.beams import Beams, scan_beams
 from ial.lidar.config import LocalizerConfig
 from ial.lidar.estimate import Hypothesis, Status, find_hypotheses, judge
 from ial.lidar.model import LidarModel
-from ial.lidar.pose_set import PoseSet
+from ial.lidar.pose_set import PoseSet, unite
+from ial.lidar.pose_sets import PoseSets
 from ial.maps.occupancy_grid import OccupancyGrid
 from ial.membership import Model, SetMembershipFilter
 from ial.pose import Pose
-
-PoseSets = dict[str, PoseSet]
 
 
 class AtlasModel(Model[PoseSets, Motion | None, Beams]):
@@ -25,45 +26,47 @@ class AtlasModel(Model[PoseSets, Motion | None, Beams]):
     Parameters
     ----------
     models
-        The maps by their names.
+        The maps by their names; at least one.
     """
 
     def __init__(self, models: Mapping[str, LidarModel]) -> None:
         self.models = dict(models)
+        self._universe = PoseSets({name: model.universe() for name, model in self.models.items()})
+        self._recovery = next(iter(self.models.values())).config.recovery
 
     def universe(self) -> PoseSets:
         """Return every pose in every map."""
-        return {name: model.universe() for name, model in self.models.items()}
+        return self._universe
 
     def predict(self, states: PoseSets, motion: Motion | None) -> PoseSets:
         """Return the moved poses; no motion leads from one map into another."""
-        return {name: model.predict(states[name], motion) for name, model in self.models.items()}
+        return PoseSets({name: model.predict(states.by_map[name], motion) for name, model in self.models.items()})
 
     def contract(self, states: PoseSets, reading: Beams) -> PoseSets:
         """Return the poses that a scan allows, with as many bad beams in every map as the best of them needs."""
-        return _alike({name: model.contract(states[name], reading) for name, model in self.models.items()})
+        if not reading.informative:
+            return states
+        return allowing(reading, states, lambda most: self._contracted(states, most))
 
-    def step(self, states: PoseSets, motion: Motion | None, reading: Beams) -> PoseSets:
-        """Return what is left after a motion and a scan."""
-        return _alike(
-            {name: model.step(states[name], motion, reading) if len(states[name]) else states[name] for name, model in self.models.items()}
-        )
+    def _contracted(self, states: PoseSets, reading: Beams) -> PoseSets:
+        return PoseSets({name: model.contract(states.by_map[name], reading) for name, model in self.models.items()})
 
     def empty(self, states: PoseSets) -> bool:
         """Return whether no pose is left in any map."""
-        return not any(map(len, states.values()))
+        return not len(states)
 
     def recover(self, states: PoseSets, motion: Motion | None, reading: Beams) -> PoseSets:
-        """Return what to go on with after a scan that fits nowhere in any prediction: every map is searched."""
-        return _alike({name: model.recover(states[name], motion, reading) for name, model in self.models.items()})
-
-
-def _alike(states: PoseSets) -> PoseSets:
-    """Return the sets with one number of bad beams that are allowed: the smallest that a scan has left in any map."""
-    told = [poses.outliers for poses in states.values() if len(poses) and not poses.carried.all()]
-    if not told:
-        return states
-    return {name: poses.within(min(told)) for name, poses in states.items()}
+        """Return what to go on with after a scan that fits nowhere in any prediction: every map is searched, as `LidarModel` does."""
+        predicted = self.predict(states, motion)
+        searched = motion is None and states is self._universe
+        found = PoseSets(dict.fromkeys(self.models, PoseSet(Boxes.none(3), outliers=reading.outliers)))
+        if not searched:
+            found = self.contract(self._universe, reading)
+        if len(found) and self._recovery == "restart":
+            return found
+        united = {name: unite(each, predicted.by_map[name]) for name, each in found.by_map.items()}
+        accepted = found.accepted if len(found) else predicted.accepted
+        return PoseSets({name: replace(each, accepted=accepted) for name, each in united.items()})
 
 
 @dataclass(frozen=True)
@@ -81,7 +84,7 @@ class Whereabouts:
     map, pose
         The map and the pose in it while `localized`, else None.
     outliers_allowed
-        q: how many beams may be bad.
+        q: how many beams may be bad. As in `Estimate`: one number for all maps.
     elapsed_s
         How long it took.
     """
@@ -142,9 +145,9 @@ class Atlas:
         self._filter = SetMembershipFilter(self.model, self.model.recover)
 
     @property
-    def poses(self) -> PoseSets:
+    def poses(self) -> dict[str, PoseSet]:
         """The present set of poses of each map, in the grid's frame."""
-        return self._filter.states
+        return self._filter.states.by_map
 
     def update(self, motion: Motion | None, scan: LaserScan) -> Whereabouts:
         """Take the motion since the last scan and a scan; return all poses that everything so far allows.
@@ -164,8 +167,8 @@ class Atlas:
         states = {name: self.model.models[name].trim(poses, beams) for name, poses in self.poses.items()}
         hypotheses = {name: find_hypotheses(poses, self.grids[name], counted=beams.informative) for name, poses in states.items()}
         every = tuple(each for found in hypotheses.values() for each in found)
-        found = any(not poses.carried.all() for poses in states.values() if len(poses))
-        status = judge(every, self.config.localized_size, rejected=rejection is not None, found=found)
+        known = self._filter.states
+        status = judge(every, self.config.localized_size, rejected=rejection is not None, found=not known.carried)
         place = next(name for name, each in hypotheses.items() if each) if status == "localized" else None
         return Whereabouts(
             stamp_ns=scan.stamp_ns,
@@ -173,6 +176,6 @@ class Atlas:
             hypotheses=hypotheses,
             map=place,
             pose=None if place is None else hypotheses[place][0].centre,
-            outliers_allowed=max(poses.outliers for poses in states.values()) if beams.informative else beams.outliers,
+            outliers_allowed=known.outliers if beams.informative else beams.outliers,
             elapsed_s=time.perf_counter() - begun,
         )

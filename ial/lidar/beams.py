@@ -3,6 +3,7 @@
 import dataclasses
 import functools
 import math
+import operator
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +15,8 @@ from ial.datasets.scan import BeamClass, LaserScan, Mounting
 from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
 from ial.lidar.directions import unit_vectors
 from ial.lidar.rays import Rays
+from ial.lidar.share import Share, number_of
+from ial.lidar.sweep import sweep_boxes
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +50,10 @@ class Beams:
     margin: int | None = None
     jump: int | None = None
 
+    def __post_init__(self) -> None:
+        if operator.index(self.outliers) < 0:
+            raise ValueError(f"the number of beams that may be bad is {self.outliers}; give at least 0")
+
     def __len__(self) -> int:
         """Return how many beams are used, those without return counted whose rays are."""
         return len(self.ends) + (0 if self.rays is None else int((self.rays.beams < 0).sum()))
@@ -69,13 +76,13 @@ def scan_beams(scan: LaserScan, config: LocalizerConfig) -> Beams:
     beams = select_beams(scan, config.bounds.of(scan.frame_id), outliers, config.max_beams, config.free_space)
     if not automatic:
         return beams
-    margin, jump = (_number(share, len(beams)) for share in (config.outlier_margin, config.max_jump))
+    margin, jump = (number_of(share, len(beams)) for share in (config.outlier_margin, config.max_jump))
     # With as many outliers as beams a scan would say nothing; what it needs is always fewer.
     most = max(0, min(beams.outliers, len(beams) - 1))
     return dataclasses.replace(beams, outliers=most, margin=margin, jump=jump)
 
 
-def select_beams(scan: LaserScan, bounds: Bounds, outliers: int | float, max_beams: int, free_space: FreeSpace | None = None) -> Beams:
+def select_beams(scan: LaserScan, bounds: Bounds, outliers: Share, max_beams: int, free_space: FreeSpace | None = None) -> Beams:
     """Return the evidence of a scan: its hits, at most `max_beams` of them, spread evenly, and what it says about free space.
 
     The true reading lies in ``y ± range_error`` and the true bearing in ``β ± bearing_error``. Turning a reading of length Y by an angle of
@@ -98,7 +105,7 @@ def select_beams(scan: LaserScan, bounds: Bounds, outliers: int | float, max_bea
     rays = None
     if free_space is not None and free_space.use:
         among = _spread(np.arange(len(used)), free_space.max_rays)
-        alone = np.flatnonzero(classes == BeamClass.NO_RETURN) if free_space.no_return_m else np.empty(0, dtype=np.intp)
+        alone = np.flatnonzero(classes == BeamClass.NO_RETURN) if free_space.no_return else np.empty(0, dtype=np.intp)
         alone = _spread(alone, free_space.max_rays)
         farthest = min(free_space.no_return_m, scan.range_max)
         rows = np.concatenate([used[among], alone])
@@ -109,7 +116,7 @@ def select_beams(scan: LaserScan, bounds: Bounds, outliers: int | float, max_bea
         margins = (free_space.margin_m + paths.blurs[rows]) * ABOVE
         rays = Rays(paths.origins[rows], paths.angles[rows], paths.turns[rows], lengths, numbers, margins)
     beams = Beams(ends, directions, errors * ABOVE, 0, rays)
-    return dataclasses.replace(beams, outliers=_number(outliers, len(beams)))
+    return dataclasses.replace(beams, outliers=number_of(outliers, len(beams)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,27 +145,24 @@ class _Paths:
 def _paths(scan: LaserScan, bounds: Bounds) -> _Paths:
     """Return the paths of all beams; where the robot moved during the scan, each is seen from where the robot was at that beam.
 
-    The motion up to a beam is taken as the beam's share of the whole, x, y and θ each; it may be wrong by that share of what the bounds
-    of motion say of such a motion, without their base.
+    `sweep_boxes` says where it was: each beam is seen from the middle of its box, and may be off by the rest of it.
     """
     angle, turn, units = _directions(len(scan), scan.angle_min, scan.angle_increment, scan.mounting, bounds.bearing_error_rad)
     laser = np.array([scan.mounting.x, scan.mounting.y])
-    sweep = scan.sweep
-    if sweep is None or len(scan) < 2:
+    if scan.sweep is None or len(scan) < 2:
         return _Paths(np.broadcast_to(laser, (len(scan), 2)), np.zeros(len(scan)), angle, turn, units)
-    share = np.arange(len(scan)) / (len(scan) - 1)
-    way, twist = math.hypot(sweep.x, sweep.y), abs(sweep.theta)
-    motion = bounds.motion
-    off_m, off_rad = (part.at(way, twist) - part.base for part in (motion.translation, motion.rotation))
-    turned = share * sweep.theta
-    c, s = unit_vectors(turned).T
-    origins = np.stack([c * laser[0] - s * laser[1], s * laser[0] + c * laser[1]], axis=1) + share[:, None] * (sweep.x, sweep.y)
-    # Each coordinate may be off by `off_m`; and the laser, at the end of an arm, by the error of the heading. Two products and their sum
-    # and that with the motion, of cosines of an angle that is itself a rounded product, are rounded.
-    rounding = ROUNDINGS * (1.0 + abs(sweep.theta)) * (np.abs(laser).sum() + abs(sweep.x) + abs(sweep.y))
-    blurs = (share * (math.sqrt(2.0) * off_m + math.hypot(*laser) * off_rad) + rounding) * ABOVE
-    angle = angle + turned
-    turn = turn + share * off_rad * ABOVE + _angle_rounding(angle)
+    boxes = sweep_boxes(scan.sweep, bounds.motion, len(scan))
+    middle = 0.5 * (boxes[:, :, 0] + boxes[:, :, 1])
+    off = np.maximum(boxes[:, :, 1] - middle, middle - boxes[:, :, 0]) * ABOVE
+    off_rad = off[:, 2]
+    c, s = unit_vectors(middle[:, 2]).T
+    origins = np.stack([c * laser[0] - s * laser[1], s * laser[0] + c * laser[1]], axis=1) + middle[:, :2]
+    # Each coordinate may be off; and the laser, at the end of an arm, by the error of the heading. Two products and their sum and that
+    # with the motion are rounded, and so is the difference of a bound and the middle.
+    rounding = ROUNDINGS * (np.abs(laser).sum() + np.abs(middle[:, :2]).sum(axis=1) + off.sum(axis=1))
+    blurs = (np.hypot(off[:, 0], off[:, 1]) + math.hypot(*laser) * off_rad + rounding) * ABOVE
+    angle = angle + middle[:, 2]
+    turn = turn + (off_rad + _angle_rounding(angle)) * ABOVE
     return _Paths(origins, blurs, angle, turn, unit_vectors(angle))
 
 
@@ -175,10 +179,6 @@ def _directions(
     angle = mounting.yaw + 0.5 * (lower + upper)
     turn = bearing_error + 0.5 * (upper - lower) + _angle_rounding(angle)
     return angle, turn, unit_vectors(angle)
-
-
-def _number(share: int | float, beams: int) -> int:
-    return share if isinstance(share, int) else math.floor(share * beams)
 
 
 def _angle_rounding(angle: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:

@@ -15,11 +15,13 @@ from ial.contractors.boxes import Boxes
 from ial.contractors.paving.limits import Limit
 from ial.datasets.odometry import Odometry
 from ial.datasets.recording import Mark
-from ial.errors import OutputError, RecordingError
+from ial.errors import RecordingError
 from ial.lidar.localizer import Localizer
+from ial.lidar.output_end import OutputEnd
 from ial.lidar.pose_set import PoseSet
+from ial.whole_file import rewrite
 
-_FORM = "ial checkpoint 1"
+_FORM = "ial checkpoint 2"
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,15 +34,15 @@ class Checkpoint:
         The last processed scan.
     poses
         The set of poses behind it, in the grid's frame.
-    written
-        How many bytes of results had been written then.
+    output
+        The file of the answers and the line of that scan, which may be missing there; None if there is no such file.
     fingerprint
         Of the localizer; see `fingerprint`.
     """
 
     mark: Mark
     poses: PoseSet
-    written: int
+    output: OutputEnd | None
     fingerprint: str
 
     def save(self, path: Path) -> None:
@@ -57,21 +59,16 @@ class Checkpoint:
             "index": self.mark.index,
             "stamp_ns": self.mark.stamp_ns,
             "odometry": asdict(self.mark.odometry),
-            "written": self.written,
+            "output": None if self.output is None else asdict(self.output),
             "fingerprint": self.fingerprint,
             "limited": poses.limited,
             "outliers": poses.outliers,
+            "accepted": poses.accepted,
         }
         content = io.BytesIO()
         text = np.frombuffer(json.dumps(about).encode(), dtype=np.uint8)
         np.savez(content, about=text, lower=poses.boxes.lower, upper=poses.boxes.upper, carried=poses.carried, bad=poses.bad)
-        temporary = path.with_name(f".{path.name}.part")
-        try:
-            temporary.write_bytes(content.getbuffer())
-            temporary.replace(path)
-        except OSError as error:
-            temporary.unlink(missing_ok=True)
-            raise OutputError(f"{path}: the state cannot be written ({error.strerror or error}); is the disk full?") from None
+        rewrite(path, content.getbuffer(), "the state")
 
     @classmethod
     def load(cls, path: Path, localizer: Localizer) -> "Checkpoint | None":
@@ -80,7 +77,7 @@ class Checkpoint:
         Raises
         ------
         RecordingError
-            If it is damaged, or belongs to another map or configuration.
+            If it is damaged, or belongs to another map, start or configuration.
         """
         try:
             with path.open("rb") as file, np.load(file, allow_pickle=False) as content:
@@ -93,25 +90,31 @@ class Checkpoint:
                     limited=about["limited"],
                     bad=content["bad"],
                     outliers=int(about["outliers"]),
-                )
+                    accepted=None if about["accepted"] is None else int(about["accepted"]),
+                ).checked()
             mark = Mark(int(about["index"]), int(about["stamp_ns"]), Odometry(**about["odometry"]))
-            found = cls(mark, poses, int(about["written"]), str(about["fingerprint"]))
+            output = None if about["output"] is None else OutputEnd(**about["output"])
+            found = cls(mark, poses, output, str(about["fingerprint"]))
         except FileNotFoundError:
             return None
         except OSError as error:
             raise RecordingError(f"{path}: the state cannot be read ({error.strerror or error}); check the path") from None
         except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile):
-            raise RecordingError(f"{path}: no state that ial has written, or a damaged one; remove it to begin anew") from None
+            raise RecordingError(
+                f"{path}: no state that this version of ial has written, or a damaged one; give another file, or remove it to begin anew"
+            ) from None
         if found.fingerprint != fingerprint(localizer):
             raise RecordingError(
-                f"{path}: this state belongs to another map, configuration or version of ial; use those, or remove it to begin anew"
+                f"{path}: this state belongs to another map, configuration, start or version of ial; use those, or remove it to begin anew"
             )
         return found
 
 
 def fingerprint(localizer: Localizer) -> str:
-    """Return a text that differs where the map, the configuration, or the version of ial differs."""
-    grid = localizer.grid
+    """Return a text that differs where the map, the start, the configuration, or the version of ial differs."""
+    grid, start = localizer.grid, localizer.start.boxes
     digest = hashlib.sha256(grid.cells.data)
+    for bounds in (start.lower, start.upper):
+        digest.update(bounds.data)
     digest.update(repr((grid.cells.shape, grid.resolution, grid.origin, localizer.config, version("ial"))).encode())
     return digest.hexdigest()[:32]

@@ -9,10 +9,11 @@ from typing import Literal
 from ial.datasets.motion import MotionBounds
 from ial.errors import ConfigError
 from ial.lidar.margins import MOST_BEAMS
+from ial.lidar.share import Share, share_of
 
 Domain = Literal["free", "free_or_unknown"]
 Recovery = Literal["union", "restart"]
-Outliers = int | float | Literal["auto"]
+Outliers = Share | Literal["auto"]
 
 LARGEST_HALVINGS = 6  # beyond, pieces are finer than what the bounds of a beam leave open, and the time grows
 
@@ -95,6 +96,11 @@ class FreeSpace:
     max_rays: int = 60
     no_return_m: float = 0.0
 
+    @property
+    def no_return(self) -> bool:
+        """Whether beams without return are used."""
+        return self.use and self.no_return_m > 0.0
+
     def __post_init__(self) -> None:
         _check("free_space.margin_m", self.margin_m)
         _check("free_space.no_return_m", self.no_return_m)
@@ -152,8 +158,8 @@ class LocalizerConfig:
     bounds
         How wrong the data may be.
     outliers
-        How many of the used beams may be bad: a whole number, a fraction of them, or ``"auto"``: for each scan the smallest number that
-        leaves a pose, plus `outlier_margin`. The guarantee then holds where the truth has at most so many bad beams.
+        How many of the used beams may be bad: a whole number, a fraction of them (see `share_of`), or ``"auto"``: for each scan the
+        smallest number that leaves a pose, plus `outlier_margin`. The guarantee then holds where the truth has at most so many bad beams.
     outlier_margin
         With ``"auto"``: what is added, a whole number or a fraction.
     max_outliers
@@ -183,14 +189,15 @@ class LocalizerConfig:
         What follows a scan that fits nowhere in the prediction: `union` carries the prediction on beside the poses found on the whole map,
         and keeps the truth whichever of the last motion and the last scan broke its bound; `restart` (the paper's) trusts the scan alone.
     max_seconds
-        A limit on the time of one scan; None for none. An answer that reaches it is coarser, marked, and not reproducible.
+        A limit on the time of one scan; None for none. An answer that reaches it is coarser, marked, and not reproducible, nor need be
+        those of the scans behind it.
     """
 
     bounds: Bounds = field(default_factory=Bounds)
     outliers: Outliers = "auto"
-    outlier_margin: int | float = 0.08
-    max_outliers: int | float = 0.3
-    max_jump: int | float = 0.12
+    outlier_margin: Share = 0.08
+    max_outliers: Share = 0.3
+    max_jump: Share = 0.12
     free_space: FreeSpace = field(default_factory=FreeSpace)
     precision: Precision = field(default_factory=Precision)
     max_boxes: int = 4_000_000
@@ -206,9 +213,13 @@ class LocalizerConfig:
     def __post_init__(self) -> None:
         for name in ("outliers", "outlier_margin", "max_outliers", "max_jump"):
             value = getattr(self, name)
-            if not _is_share(value) and not (name == "outliers" and value == "auto"):
+            if name == "outliers" and isinstance(value, str) and value == "auto":
+                continue
+            share = share_of(value)
+            if share is None:
                 also = ", or 'auto'" if name == "outliers" else ""
                 raise ConfigError(f"{name} is {value!r}; give a whole number of beams, or a fraction from 0.0 to 1.0{also}")
+            object.__setattr__(self, name, share)
         if not isinstance(self.max_boxes, int) or self.max_boxes < 1:
             raise ConfigError(f"max_boxes is {self.max_boxes!r}; give a whole number of at least 1")
         if not isinstance(self.max_beams, int) or not 1 <= self.max_beams <= MOST_BEAMS:
@@ -222,12 +233,6 @@ class LocalizerConfig:
             raise ConfigError(f"recovery is {self.recovery!r}; give 'union' or 'restart'")
         if self.max_seconds is not None:
             _check("max_seconds", self.max_seconds, positive=True)
-
-
-def _is_share(value: object) -> bool:
-    if isinstance(value, bool):
-        return False
-    return (isinstance(value, int) and value >= 0) or (isinstance(value, float) and 0.0 <= value <= 1.0)
 
 
 def _check(name: str, value: float, *, positive: bool = False) -> None:

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.expressions.functions import hypot
@@ -71,8 +70,9 @@ class Estimate:
         Time of the scan, nanoseconds.
     status
         `localized`: one hypothesis, not larger than the configured size. `lost`: this scan fitted nowhere in the prediction and was
-        searched over the whole map. `blind`: it fitted nowhere at all. `symmetric`: all hypotheses are images of each other under a
-        symmetry of the map. `ambiguous`: everything else.
+        searched over the whole map. `blind`: it fitted nowhere at all. `symmetric`: whatever pose of one hypothesis is consistent with
+        all data, so are its images in all others, under rotations that map the map onto itself; see `are_images`. `ambiguous`:
+        everything else.
     hypotheses
         The connected sets of poses, the largest volume first.
     pose
@@ -82,7 +82,8 @@ class Estimate:
     beams
         How many beams were used.
     outliers_allowed
-        q: how many of them may be bad; with ``outliers: auto``, what the scan needed and the margin.
+        q: how many of them may be bad. All of the answer but predictions was cut at this number. With ``outliers: auto`` it is what the
+        scan needed and the margin; of a `blind` scan, the largest number with which it was searched for in vain.
     uninformative
         Whether the scan could exclude nothing: no usable beams, or as many allowed outliers.
     limited
@@ -131,6 +132,7 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True
     found = []
     for label, (start, stop) in enumerate(itertools.pairwise(edges)):
         rows = order[start:stop]
+        sure = rows[~poses.carried[rows]]
         hull = Boxes(in_map.lower[rows], in_map.upper[rows]).hull()
         found.append(
             Hypothesis(
@@ -139,8 +141,8 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True
                 theta=(float(theta.lower[label, 2]), float(theta.upper[label, 2])),
                 boxes=len(rows),
                 volume=float(volumes[rows].sum()),
-                prediction=bool(poses.carried[rows].all()),
-                spare_beams=poses.outliers - int(poses.bad[rows].min()) if counted and not poses.carried[rows].all() else None,
+                prediction=not len(sure),
+                spare_beams=poses.outliers - int(poses.bad[sure].min()) if counted and len(sure) else None,
             )
         )
     return tuple(sorted(found, key=lambda each: -each.volume))
@@ -152,32 +154,6 @@ def radius(poses: PoseSet, pose: Pose, grid: OccupancyGrid) -> float:
     away = Boxes(poses.boxes.lower[:, :2], poses.boxes.upper[:, :2]) - Boxes(at.lower[:, :2], at.upper[:, :2])
     x, y = zip(away.lower.T, away.upper.T, strict=True)
     return float(hypot.bounds(x, y)[1].max())
-
-
-def are_images(hypotheses: tuple[Hypothesis, ...], symmetries: tuple[Pose, ...], widths: npt.NDArray[np.float64]) -> bool:
-    """Return whether hypotheses are images of each other: those of the first under all symmetries of the map, and no others.
-
-    Parameters
-    ----------
-    hypotheses
-        Two or more.
-    symmetries
-        Of the map, in the map frame.
-    widths
-        Of a cell of the answer along x, y and θ. Cells do not map onto cells, so middles may differ by two of them.
-    """
-    if not 1 < len(hypotheses) <= 1 + len(symmetries):
-        return False
-    first = hypotheses[0].centre
-    images = [first, *(symmetry @ first for symmetry in symmetries)]
-    return all(sum(_near(image, each.centre, 2.0 * widths) for each in hypotheses) == 1 for image in images) and all(
-        any(_near(image, each.centre, 2.0 * widths) for image in images) for each in hypotheses
-    )
-
-
-def _near(one: Pose, other: Pose, most: npt.NDArray[np.float64]) -> bool:
-    difference = (one.x - other.x, one.y - other.y, wrap(one.theta - other.theta))
-    return bool((np.abs(difference) <= most).all())
 
 
 def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: bool, found: bool, symmetric: bool = False) -> Status:
@@ -194,7 +170,7 @@ def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: 
     found
         Whether it fitted anywhere.
     symmetric
-        Whether the hypotheses are images of each other under a symmetry of the map.
+        Whether the consistent poses of the hypotheses are images of each other; see `are_images`.
     """
     if rejected:
         return "lost" if found else "blind"

@@ -5,7 +5,9 @@ import math
 
 import numpy as np
 
+from ial.contractors.angles import wrapped
 from ial.contractors.boxes import Boxes, FloatArray
+from ial.contractors.intervals.angle import wrap_angle
 from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.contractors.kernels import kernel
 from ial.contractors.margins import ABOVE
@@ -60,12 +62,13 @@ class Lattice:
         Parameters
         ----------
         boxes
-            What to cover.
+            What to cover; headings may have any turn, and empty boxes are left out.
         max_cells
             How many cells there may be.
         volume
             A volume that the union of the boxes does not fall below by much: levels too fine for it are not tried.
         """
+        boxes = wrapped(boxes, 2)
         boxes = boxes[~boxes.empty]
         if not len(boxes):
             return boxes
@@ -146,15 +149,13 @@ def _cell_ranges(lower, upper, step, edges, ranges):  # type: ignore[no-untyped-
     width = 2.0 * math.pi / layers
     for row in range(len(lower)):
         for axis in range(2):
+            # Multiples k·step are exact. A double beside one differs from it by 2⁻⁵³ of it or more, and a number that is rounded to k
+            # differs from k by less: no quotient is rounded to k from below or from above, and both whole numbers are right.
             first = int(math.floor(lower[row, axis] / step))
             last = max(first, int(math.ceil(upper[row, axis] / step)) - 1)
-            while first * step > lower[row, axis]:
-                first -= 1
-            while (last + 1) * step < upper[row, axis]:
-                last += 1
             ranges[row, 2 * axis] = first
             ranges[row, 2 * axis + 1] = last
-        start, stop = lower[row, 2], upper[row, 2]
+        start, stop = wrap_angle(lower[row, 2], upper[row, 2])
         first = min(max(int(math.floor((start + math.pi) / width)), 0), layers - 1)
         while first > 0 and edges[first] > start:
             first -= 1

@@ -8,12 +8,14 @@ from ial.datasets.motion import Motion
 from ial.datasets.scan import LaserScan
 from ial.lidar.beams import Beams, scan_beams
 from ial.lidar.config import Bounds, LocalizerConfig, Outliers
-from ial.lidar.estimate import Estimate, are_images, find_hypotheses, judge, radius
+from ial.lidar.estimate import Estimate, find_hypotheses, judge, radius
 from ial.lidar.global_check import GlobalCheck, check_everywhere
+from ial.lidar.images import are_images
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet
 from ial.maps.occupancy_grid import OccupancyGrid
 from ial.membership import SetMembershipFilter
+from ial.pose import Pose
 
 
 class Localizer:
@@ -33,7 +35,7 @@ class Localizer:
     config
         Everything else.
     initial
-        Boxes (x, y, θ) in the map frame in which the search starts; the whole map by default.
+        Boxes (x, y, θ) in the map frame in which the search starts, headings of any turn; the whole map by default.
 
     Raises
     ------
@@ -41,6 +43,8 @@ class Localizer:
         If the map cannot serve for localization.
     ConfigError
         If the start lies outside the domain.
+    ValueError
+        If a bound of the start is NaN.
 
     Examples
     --------
@@ -69,18 +73,35 @@ class Localizer:
         self.config = config
         self.grid = grid
         self.model = LidarModel(grid, config)
-        self._symmetries = self.model.symmetries()
         self._start = self.model.universe() if initial is None else self.model.within(initial)
+        # A part of the map may tell a pose from its image; only all of it is known not to.
+        self._start_symmetries = self.model.symmetries() if initial is None else ()
         self.reset()
 
     def reset(self) -> None:
         """Forget everything but the start."""
         self._updates = 0
+        self._symmetries = self._start_symmetries
         self._filter = SetMembershipFilter(self.model, self.model.recover, self._start)
 
-    def resume(self, poses: PoseSet) -> None:
-        """Go on from a set of poses, in the grid's frame, that `poses` has given before."""
-        self._filter = SetMembershipFilter(self.model, self.model.recover, poses)
+    def resume(self, poses: PoseSet, *, same_start: bool = False) -> None:
+        """Go on from a set of poses, in the grid's frame.
+
+        Parameters
+        ----------
+        poses
+            The set.
+        same_start
+            Whether `poses` of a localizer with this map, this configuration and this start has given it. Where it came from is else
+            unknown, and no answer is called `symmetric`.
+
+        Raises
+        ------
+        ValueError
+            If a box is empty, or a bound is NaN or infinite; an interval of headings of a turn or more is the full circle.
+        """
+        self._symmetries = self._start_symmetries if same_start else ()
+        self._filter = SetMembershipFilter(self.model, self.model.recover, poses.checked())
 
     @property
     def start(self) -> PoseSet:
@@ -94,7 +115,7 @@ class Localizer:
 
     def locate(self, scan: LaserScan) -> Estimate:
         """Return the static answer: all poses that one scan alone allows. What was learned from other scans is neither used nor changed."""
-        return self._estimate(SetMembershipFilter(self.model, self.model.recover, self._start), None, scan)
+        return self._estimate(SetMembershipFilter(self.model, self.model.recover, self._start), self._start_symmetries, None, scan)
 
     def update(self, motion: Motion | None, scan: LaserScan) -> Estimate:
         """Take the motion since the last scan and a scan; return all poses that everything so far allows.
@@ -106,7 +127,7 @@ class Localizer:
         scan
             The scan.
         """
-        estimate = self._estimate(self._filter, motion, scan)
+        estimate = self._estimate(self._filter, self._symmetries, motion, scan)
         self._updates += 1
         every = self.config.check_every
         if every and self._updates % every == 0 and estimate.status not in ("lost", "blind"):
@@ -119,7 +140,13 @@ class Localizer:
         """Search the whole map for a place where the last scan fits better than in the present set; see `check_everywhere`."""
         return check_everywhere(self.model, self.poses, scan_beams(scan, self.config))
 
-    def _estimate(self, tracker: SetMembershipFilter[PoseSet, Motion | None, Beams], motion: Motion | None, scan: LaserScan) -> Estimate:
+    def _estimate(
+        self,
+        tracker: SetMembershipFilter[PoseSet, Motion | None, Beams],
+        symmetries: tuple[Pose, ...],
+        motion: Motion | None,
+        scan: LaserScan,
+    ) -> Estimate:
         begun = time.perf_counter()
         self.model.start_clock()
         beams = scan_beams(scan, self.config)
@@ -131,7 +158,7 @@ class Localizer:
             self.config.localized_size,
             rejected=rejection is not None,
             found=not bool(poses.carried.all()),
-            symmetric=are_images(hypotheses, self._symmetries, self.model.lattice.widths),
+            symmetric=are_images(poses.boxes, symmetries, self.grid.width_m + self.grid.height_m),
         )
         pose = hypotheses[0].centre if status == "localized" else None
         return Estimate(

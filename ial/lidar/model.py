@@ -7,7 +7,6 @@ import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.margins import ABOVE
-from ial.contractors.paving.clusters import cluster
 from ial.contractors.paving.limits import Deadline
 from ial.contractors.paving.paver import pave
 from ial.contractors.paving.waiting import Order
@@ -111,7 +110,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
             return states
         parts = (states.boxes[rows] for rows in (~states.carried, states.carried))
         confirmed, carried = (self._laid_out(move(in_rows(boxes), motion), boxes.volume()) for boxes in parts)
-        return unite(PoseSet(confirmed, outliers=states.outliers), PoseSet(carried))
+        return replace(unite(PoseSet(confirmed), PoseSet(carried)), outliers=states.outliers, accepted=states.accepted)
 
     def _laid_out(self, boxes: Boxes, volume: float = 0.0) -> Boxes:
         """Return the cells of the lattice that cover boxes, as far as they meet the domain; see `Lattice.cover`."""
@@ -142,7 +141,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         small = len(keys) == 1 and volume < 2.0 * self._affordable * finest
         tiles = self.lattice.few_tiles(moved, self._affordable) if small else None
         if tiles is None:
-            return self.contract(PoseSet(self._laid_out(moved, volume), outliers=states.outliers), reading)
+            return self.contract(PoseSet(self._laid_out(moved, volume), accepted=states.accepted), reading)
         sheet = self.sheets[keys[0]]
         return allowing(reading, states, lambda most: self._coarsened(self._tried(sheet, tiles, moved, most), most))
 
@@ -234,24 +233,15 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         halvings = self.config.precision.halvings
         if not halvings or not reading.informative or poses.limited or not 0 < len(poses) <= _TRIMMED or poses.carried.any():
             return poses
-        clusters = cluster(poses.boxes, circular=(2,))
-        lowest = self.lattice.layer(clusters.hulls)[clusters.labels]
-        layers = (self.lattice.layer(poses.boxes) - lowest) % self.lattice.layers
         allowed = reading.allowing(poses.outliers)
-        lower, upper = poses.boxes.lower.copy(), poses.boxes.upper.copy()
-        kept = np.zeros(len(poses), dtype=np.bool_)
-        for key, rows, part in self.sheets.parts(poses.boxes):
-            occupied = self.sheets[key].occupied
-            cut, kept[rows] = trim(part, clusters.labels[rows], layers[rows], allowed, occupied, self.config.bounds.map_error_m, halvings)
-            lower[rows], upper[rows] = cut.lower, cut.upper
+        cut, kept = trim(poses.boxes, self.lattice, self.sheets, allowed, self.config.bounds.map_error_m, halvings)
         if not kept.any():
             return poses
-        return replace(poses, boxes=Boxes(lower, upper)[kept], carried=poses.carried[kept], bad=poses.bad[kept])
+        return replace(poses, boxes=cut[kept], carried=poses.carried[kept], bad=poses.bad[kept])
 
     def symmetries(self) -> tuple[Pose, ...]:
-        """Return the rotations of the map frame after which no scan can tell the difference."""
-        origin = self.grid.origin
-        return tuple(origin @ turn @ origin.inverse() for turn in symmetries(self.grid, self._allowed))
+        """Return the rotations of the grid's frame after which no scan can tell the difference."""
+        return symmetries(self.grid, self._allowed)
 
     def in_domain(self, pose: Pose) -> bool:
         """Return whether a position in the grid's frame lies in a cell of the domain."""
@@ -271,7 +261,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         """
         predicted = self.predict(states, motion)
         searched = motion is None and states is self._universe  # the step itself has searched the whole map in vain
-        found = PoseSet(Boxes.none(3)) if searched else self.contract(self._universe, reading)
+        found = PoseSet(Boxes.none(3), outliers=reading.outliers) if searched else self.contract(self._universe, reading)
         if len(found) and self.config.recovery == "restart":
             return found
         return unite(found, predicted)

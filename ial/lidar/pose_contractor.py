@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ial.contractors.angles import wrapped
 from ial.contractors.boxes import Boxes
 from ial.lidar.beams import Beams
 from ial.lidar.scan_contractor import ScanContractor
@@ -30,8 +31,15 @@ class PoseContractor:
         self._domain = domain
 
     def contract(self, boxes: Boxes) -> Boxes:
-        """Return the boxes, those emptied that hold no consistent pose."""
-        keep = self._domain.meet(Boxes(boxes.lower[:, :2], boxes.upper[:, :2]))
+        """Return the boxes, those emptied that hold no consistent pose; headings may have any turn, and keep theirs.
+
+        Raises
+        ------
+        ValueError
+            If a bound is NaN.
+        """
+        turned = wrapped(boxes, 2)
+        keep = self._domain.meet(Boxes(turned.lower[:, :2], turned.upper[:, :2]))
         rows = np.flatnonzero(keep)
-        keep[rows] = self._scan.fits(boxes[rows])
+        keep[rows] = self._scan.fits(turned[rows])
         return boxes.where(keep)

@@ -1,11 +1,12 @@
 """`PoseSet`: what the localizer knows, as boxes of poses in the grid's frame."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import numpy.typing as npt
 
+from ial.contractors.angles import wrapped
 from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.angle import contains_angle
 from ial.contractors.paving.limits import Limit
@@ -29,7 +30,10 @@ class PoseSet:
     bad
         How many beams of the last scan are bad at least, wherever in a box the robot is; int16 of shape (n,), 0 where it is not known.
     outliers
-        How many beams of the last scan may be bad.
+        How many beams of the last scan may be bad. All boxes but the carried ones were cut at this number, and where none are left, so
+        was the search that has found nothing.
+    accepted
+        The same of the last scan that has left a pose, with which that of the next scan is compared; None before there was one.
     """
 
     boxes: Boxes
@@ -38,6 +42,7 @@ class PoseSet:
     nodes: int = 0
     bad: npt.NDArray[np.int16] = field(default_factory=lambda: np.empty(0, dtype=np.int16))
     outliers: int = 0
+    accepted: int | None = None
 
     def __post_init__(self) -> None:
         if len(self.carried) != len(self.boxes):
@@ -48,15 +53,37 @@ class PoseSet:
     def __len__(self) -> int:
         return len(self.boxes)
 
+    def checked(self) -> "PoseSet":
+        """Return the set with its headings in the form of `ial.contractors.intervals.angle`.
+
+        Raises
+        ------
+        ValueError
+            If a box is empty, or a bound is NaN or infinite.
+        """
+        boxes = wrapped(self.boxes, 2)
+        fine = np.isfinite(boxes.lower).all(axis=1) & np.isfinite(boxes.upper).all(axis=1)
+        if not fine.all():
+            raise ValueError(
+                f"box {fine.argmin()} of {len(boxes)} is empty or has a bound that is infinite; leave it out, or cut it to the map"
+            )
+        return replace(self, boxes=boxes)
+
     def without(self, boxes: Boxes) -> "PoseSet":
         """Return the set without those of its boxes that are among others, bit for bit."""
         rows = ~np.isin(_names(self.boxes), _names(boxes))
-        return PoseSet(self.boxes[rows], self.carried[rows], self.limited, self.nodes, self.bad[rows], self.outliers)
+        return replace(self, boxes=self.boxes[rows], carried=self.carried[rows], bad=self.bad[rows])
+
+    @property
+    def fewest_bad(self) -> int:
+        """How many beams of the last scan are bad at least, wherever in the set the robot is."""
+        return int(self.bad.min())
 
     def within(self, outliers: int) -> "PoseSet":
-        """Return the boxes that may hold a pose from which at most so many beams are bad."""
+        """Return the boxes that may hold a pose from which at most so many beams are bad: what a scan that may have so many leaves."""
         rows = self.bad <= outliers
-        return PoseSet(self.boxes[rows], self.carried[rows], self.limited, self.nodes, self.bad[rows], outliers)
+        left = replace(self, boxes=self.boxes[rows], carried=self.carried[rows], bad=self.bad[rows])
+        return replace(left, outliers=outliers, accepted=outliers)
 
     def contains(self, pose: Pose) -> bool:
         """Return whether a pose, in the grid's frame, lies in one of the boxes; headings are taken modulo 2π."""
@@ -73,7 +100,7 @@ def _names(boxes: Boxes) -> npt.NDArray[np.void]:
 
 
 def unite(confirmed: PoseSet, carried: PoseSet) -> PoseSet:
-    """Return the union of poses that a scan allows and poses that are only predicted."""
+    """Return the union of poses that a scan allows, as its search has left them, and poses that are only predicted."""
     flags = np.concatenate([np.zeros(len(confirmed), dtype=np.bool_), np.ones(len(carried), dtype=np.bool_)])
     return PoseSet(
         Boxes.concatenate([confirmed.boxes, carried.boxes]),
@@ -81,7 +108,8 @@ def unite(confirmed: PoseSet, carried: PoseSet) -> PoseSet:
         confirmed.limited or carried.limited,
         confirmed.nodes + carried.nodes,
         np.concatenate([confirmed.bad, carried.bad]),
-        max(confirmed.outliers, carried.outliers),
+        confirmed.outliers,
+        confirmed.accepted if len(confirmed) else carried.accepted,
     )
 
 

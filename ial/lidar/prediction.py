@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ial.contractors.angles import wrapped
 from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.angle import wrap_angle
 from ial.contractors.intervals.arithmetic import add
@@ -27,12 +28,18 @@ def _move(start, stop, lower, upper, motion_lower, motion_upper, moved_lower, mo
 
 
 def move(boxes: Boxes, motion: Motion) -> Boxes:
-    """Return, for each box of poses (x, y, θ), a box around all poses that a motion can lead to from it.
+    """Return, for each box of poses (x, y, θ), a box around all poses that a motion can lead to from it; an empty row stays empty.
 
     ``x' = x + dx cos θ − dy sin θ, y' = y + dx sin θ + dy cos θ, θ' = θ + dθ``, in interval arithmetic.
 
+    Raises
+    ------
+    ValueError
+        If a bound is NaN.
+
     Source: Guyonneau et al. 2014, eq. 3, with a sideways component, in the axes of REP-103.
     """
+    boxes = wrapped(boxes, 2)
     lower, upper = np.empty_like(boxes.lower), np.empty_like(boxes.upper)
     run(_move, len(boxes), boxes.lower, boxes.upper, tuple(motion.lower.tolist()), tuple(motion.upper.tolist()), lower, upper)
     return Boxes(lower, upper)

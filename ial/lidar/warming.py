@@ -7,6 +7,7 @@ import numpy as np
 
 from ial.datasets.in_memory import InMemoryRecording
 from ial.datasets.odometry import Odometry
+from ial.datasets.odometry_buffer import OdometryBuffer
 from ial.datasets.recording import Reading, steps
 from ial.datasets.scan import LaserScan
 from ial.lidar.config import LocalizerConfig
@@ -45,9 +46,13 @@ def _room() -> OccupancyGrid:
 def _recording() -> InMemoryRecording:
     """Return a few scans from the middle of the room, and then one that fits nowhere near."""
     readings = []
+    odometry = OdometryBuffer((stamp, Odometry.of(Pose())) for stamp in (0, 4, 8, 12, 16))
     for index, side in enumerate((1.9, 1.9, 0.7)):
         angles = np.arange(180) * (math.pi / 90.0)
         ranges = side / np.maximum(np.abs(np.cos(angles)), np.abs(np.sin(angles)))
-        scan = LaserScan(index + 1, ranges.astype(np.float32), 0.0, math.pi / 90.0, 0.05, 10.0)
-        readings.append(Reading(index, scan.stamp_ns, Odometry.of(Pose()), scan))
+        stamp, end = 4 * index + 1, 4 * index + 6  # between messages, with messages during the scan
+        at, sweep = odometry.at(stamp), odometry.sweep(stamp, end)
+        assert at is not None
+        scan = LaserScan(stamp, ranges.astype(np.float32), 0.0, math.pi / 90.0, 0.05, 10.0, sweep=sweep)
+        readings.append(Reading(index, stamp, at, scan, odometry.between(stamp - 4, stamp)))
     return InMemoryRecording("a made-up room", readings)

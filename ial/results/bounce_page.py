@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from ial.errors import OutputError
+from ial.whole_file import whole_files
 
 _DPI = 120
 _PANEL_IN = 3.4
@@ -79,15 +79,8 @@ class BouncePage:
         OutputError
             If it cannot be written.
         """
-        temporary = path.with_name(f".{path.name}.part")
-        try:
-            self._figure.savefig(temporary, dpi=_DPI, format="png", pil_kwargs={"compress_level": 6})
-            temporary.replace(path)
-        except OSError as error:
-            temporary.unlink(missing_ok=True)
-            raise OutputError(
-                f"{path}: the picture cannot be written ({error.strerror or error}); choose a folder that is writable"
-            ) from None
+        with whole_files(path, what="the picture") as (lent,):
+            self._figure.savefig(lent, dpi=_DPI, format="png", pil_kwargs={"compress_level": 6})
 
 
 def arrow(axes: Axes, x: float, y: float, heading_deg: float, size: float, colour: str) -> None:

@@ -2,11 +2,13 @@
 
 import dataclasses
 from collections.abc import Mapping
+from fractions import Fraction
 from typing import Any
 
 import yaml
 
 from ial.datasets.motion import ErrorBound, MotionBounds
+from ial.errors import ConfigError
 from ial.lidar.config import Bounds, FreeSpace, LidarBounds, LocalizedSize, LocalizerConfig, Precision
 
 _HEADER = "# The configuration of a localizer, with every default filled in. Lengths in metres, angles in radians.\n"
@@ -15,7 +17,8 @@ _HEADER = "# The configuration of a localizer, with every default filled in. Len
 def config_record(config: LocalizerConfig) -> dict[str, Any]:
     """Return the keys and values of a configuration file: those of `LocalizerConfig`, with those of its bounds at the top."""
     record = dataclasses.asdict(config)
-    return {**record.pop("bounds"), **record}
+    bounds: dict[str, Any] = record.pop("bounds")
+    return {**bounds, **{key: _written(value) for key, value in record.items()}}
 
 
 def config_of(record: Mapping[str, Any]) -> LocalizerConfig:
@@ -35,7 +38,22 @@ def config_of(record: Mapping[str, Any]) -> LocalizerConfig:
     bounds = Bounds(**errors, motion=wheels, lidars=lidars)
     parts = {"free_space": FreeSpace, "precision": Precision, "localized_size": LocalizedSize}
     made = {name: kind(**rest.pop(name)) for name, kind in parts.items()}
-    return LocalizerConfig(bounds=bounds, **made, **rest)
+    return LocalizerConfig(bounds=bounds, **made, **{key: _read(value) for key, value in rest.items()})
+
+
+def _written(value: Any) -> Any:
+    """Return a fraction as a text, "1/1" too: 1 would be one beam."""
+    return f"{value.numerator}/{value.denominator}" if isinstance(value, Fraction) else value
+
+
+def _read(value: Any) -> Any:
+    """Return a text of that form as a fraction."""
+    if not isinstance(value, str) or "/" not in value:
+        return value
+    try:
+        return Fraction(value)
+    except (ValueError, ZeroDivisionError):
+        raise ConfigError(f"{value!r} is no fraction; give one such as 1/3") from None
 
 
 def config_yaml(config: LocalizerConfig) -> str:

@@ -1,12 +1,15 @@
-"""`ResultFolder`: the folder of a run, whose files appear together when the run is complete."""
+"""`ResultFolder`: the folder of a run, whose files appear together when the run is complete, and how it is known again."""
 
 import contextlib
+import hashlib
+import json
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, ExitStack, contextmanager
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
 from ial.datasets.recording import Step
 from ial.errors import OutputError
@@ -47,6 +50,7 @@ class ResultFolder(AbstractContextManager["ResultFolder"]):
         self.path = Path(path)
         self._made = [each for each in (self.path, *self.path.parents) if not each.exists()]
         self._sinks: list[Sink] = []
+        self._record: str | None = None
         self._stack = ExitStack()
         try:
             self.path.mkdir(parents=True, exist_ok=True)
@@ -90,6 +94,29 @@ class ResultFolder(AbstractContextManager["ResultFolder"]):
         with self._trouble():
             self.place(name).write_text(text, encoding="utf-8")
 
+    def conclude(self, name: str, record: Mapping[str, Any]) -> dict[str, Any]:
+        """Write the record of the run, after all other files are complete, and return it as written.
+
+        It gets its name last, and that of an earlier run is removed first: where a record is, the files beside it are those of one run.
+
+        Parameters
+        ----------
+        name
+            The file.
+        record
+            Plain values that JSON can hold; ``files`` is added: the SHA-256 of every other file, by which `written_by_a_run` knows them.
+
+        Raises
+        ------
+        OutputError
+            If it cannot be written.
+        """
+        with self._trouble():
+            whole = {**record, "files": {file.name: _sha256(file) for file in sorted(self._hidden.iterdir())}}
+        self.write(name, json.dumps(whole, indent=2, allow_nan=False, ensure_ascii=False) + "\n")
+        self._record = name
+        return whole
+
     def close(self) -> None:
         """Let every sink complete its file; the files get their names at the end of the block.
 
@@ -107,12 +134,17 @@ class ResultFolder(AbstractContextManager["ResultFolder"]):
             with self._trouble():
                 self._stack.__exit__(kind, error, trace)
                 if kind is None:
-                    for file in sorted(self._hidden.iterdir()):
-                        file.replace(self.path / file.name)
+                    self._name_files()
         finally:
             shutil.rmtree(self._hidden, ignore_errors=True)
             if not any(self.path.iterdir()):
                 self._remove_made()
+
+    def _name_files(self) -> None:
+        if self._record is not None:
+            (self.path / self._record).unlink(missing_ok=True)
+        for file in sorted(self._hidden.iterdir(), key=lambda file: (file.name == self._record, file.name)):
+            file.replace(self.path / file.name)
 
     def _remove_made(self) -> None:
         for folder in self._made:
@@ -125,3 +157,30 @@ class ResultFolder(AbstractContextManager["ResultFolder"]):
             yield
         except OSError as error:
             raise OutputError(f"{self.path}: the results cannot be written ({error.strerror or error}); is the disk full?") from None
+
+
+def written_by_a_run(folder: Path, names: Sequence[str]) -> set[str]:
+    """Return which files in a folder are still what a run has written there.
+
+    Parameters
+    ----------
+    folder
+        The folder.
+    names
+        The files of a run's results, its record first (`ResultFolder.conclude`). Without such a record no file is known.
+    """
+    record, *others = names
+    try:
+        files = json.loads((folder / record).read_text(encoding="utf-8"))["files"]
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        return set()
+    if not isinstance(files, dict) or sorted(files) != sorted(others):
+        return set()
+    with contextlib.suppress(OSError):
+        return {record, *(name for name in others if (folder / name).is_file() and _sha256(folder / name) == files[name])}
+    return set()
+
+
+def _sha256(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

@@ -8,16 +8,23 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ial.study.blocked_rays import blocked_rays as blocked_rays
     from ial.study.containment import Containment as Containment
+    from ial.study.domain import Domain as Domain
     from ial.study.good_beams import bad_beams as bad_beams
+    from ial.study.good_beams import consistent as consistent
     from ial.study.good_beams import good_beams as good_beams
+    from ial.study.obstacles import Obstacles as Obstacles
+    from ial.study.used_beams import UsedBeams as UsedBeams
 else:
     from ial.lazy import lazy as _lazy
 
     __getattr__, __dir__, __all__ = _lazy(
         __name__,
         {
-            "containment": ("Containment",),
             "blocked_rays": ("blocked_rays",),
-            "good_beams": ("bad_beams", "good_beams"),
+            "containment": ("Containment",),
+            "domain": ("Domain",),
+            "good_beams": ("bad_beams", "consistent", "good_beams"),
+            "obstacles": ("Obstacles",),
+            "used_beams": ("UsedBeams",),
         },
     )

@@ -1,31 +1,26 @@
-"""Which rays of a scan are blocked at a pose, by the exact definition: the slow, obvious twin of `ial.lidar.free_space`."""
-
-import math
+"""Which rays of a scan are blocked at poses of the base, by the definition of docs/guarantee.md."""
 
 import numpy as np
-import numpy.typing as npt
 
-from ial.lidar.rays import Rays
-from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
-from ial.maps.ray_casting import cast_rays
-from ial.pose import Pose
-
-_PER_CELL = 10  # rays cast for each cell of a strip's width
+from ial.study.obstacles import BoolArray, FloatArray, Obstacles
+from ial.study.open_strips import open_strips
+from ial.study.used_beams import UsedBeams, in_grid
 
 
-def blocked_rays(rays: Rays, pose: Pose, grid: OccupancyGrid) -> npt.NDArray[np.bool_]:
-    """Return which rays are blocked at a pose of the base in the grid's frame, bool of shape (n,).
+def blocked_rays(beams: UsedBeams, poses: FloatArray, obstacles: Obstacles) -> BoolArray:
+    """Return which of the beams that are looked along may be blocked, bool of shape (m, rays).
 
-    A ray is blocked if it and every parallel ray within the margin, for every bearing within its error, meets a closed occupied cell. Here
-    rays a tenth of a cell apart are cast, for the middle and both ends of the bearing; one that slips through between them may be taken for
-    blocked, never the other way round.
+    A ray is blocked if it and every ray beside it, parallel and at most the margin away, meets a closed occupied cell, for every bearing
+    within its error and, where the motion during the scan is taken out, every motion within its error. Bearings are tried a cell apart, and
+    of the motions the recorded one and the corners of their box; so a ray that is free for others alone is called blocked, and never the
+    other way round.
     """
-    count = 2 * max(1, math.ceil(rays.margins.max(initial=0.0) / grid.resolution * _PER_CELL)) + 1
-    aside = rays.margins[:, None, None] * np.linspace(-1.0, 1.0, count)
-    c, s = math.cos(pose.theta), math.sin(pose.theta)
-    laser_x = (pose.x + c * rays.origins[:, 0] - s * rays.origins[:, 1])[:, None, None]
-    laser_y = (pose.y + s * rays.origins[:, 0] + c * rays.origins[:, 1])[:, None, None]
-    angle = pose.theta + rays.angles[:, None, None] + rays.turns[:, None, None] * np.array([-1.0, 0.0, 1.0])[:, None]
-    x, y = laser_x - aside * np.sin(angle), laser_y + aside * np.cos(angle)
-    distance = cast_rays(grid.mask(OCCUPIED), grid.resolution, x, y, np.broadcast_to(angle, x.shape), float(rays.lengths.max(initial=0.0)))
-    return np.asarray((distance <= rays.lengths[:, None, None]).all(axis=(1, 2)))
+    origins, angles = (each[beams.rays] for each in beams.seen(beams.turns(obstacles.resolution)))
+    blocked = np.ones((len(poses), len(beams.rays)), dtype=np.bool_)
+    tried = [(0, 0.0)]  # most rays are free by themselves
+    tried += [(which, beams.margin_m) for which in range(angles.shape[1])]
+    for which, aside in tried:
+        pose, ray = np.nonzero(blocked)
+        at, heading = in_grid(poses[pose], origins[ray, which], angles[ray, which])
+        blocked[pose, ray] = ~open_strips(obstacles, at, heading, beams.lengths[ray], aside)
+    return blocked

@@ -2,22 +2,23 @@
 
 import dataclasses
 import math
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ial.contractors.boxes import FloatArray
-from ial.datasets.motion import ErrorBound, MotionBounds
 from ial.datasets.recording import Step
-from ial.lidar.beams import Beams, scan_beams
 from ial.lidar.config import LocalizerConfig
-from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
+from ial.maps.occupancy_grid import OccupancyGrid
 from ial.maps.ray_casting import cast_rays
 from ial.pose import Pose, wrap
 from ial.study.blocked_rays import blocked_rays
 from ial.study.failures import Failures
 from ial.study.good_beams import good_beams
+from ial.study.motion_fit import RecordedStep, fitted
+from ial.study.obstacles import Obstacles
+from ial.study.used_beams import UsedBeams, in_grid
 
 TOTALS_M = (0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3)
 """Sums of range error and map error that are tried."""
@@ -27,10 +28,8 @@ OUTLIERS = (0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3)
 
 QUANTILES = (0.5, 0.9, 0.95, 0.98, 0.99)
 
-_NEIGHBOURS = 4  # the nearest cell is among the four whose centres are nearest
 _TYPICAL_OUTLIERS, _TYPICAL_SCANS = 0.1, 0.95  # the suggested bound leaves at most so many beams bad in so many scans
 _HELD = 0.99  # of scans and steps, by what is suggested
-_DIGITS = 2
 
 
 class BoundsSurvey:
@@ -48,64 +47,54 @@ class BoundsSurvey:
         self.grid = grid
         self.config = config
         self.failures = Failures(grid)
-        mask = grid.mask(OCCUPIED)
-        self._mask = mask
-        self._tree = cKDTree((np.argwhere(mask)[:, ::-1] + 0.5) * grid.resolution)
+        self._obstacles = Obstacles(grid)
         self._bad: list[float] = []
         self._shares: list[FloatArray] = []
         self._distances: list[FloatArray] = []
         self._translation: list[float] = []
         self._rotation: list[float] = []
-        self._ratios: list[tuple[float, float]] = []
+        self._steps: list[RecordedStep] = []
+        self._kept: list[bool] = []
         self._previous: Pose | None = None
 
     def add(self, step: Step, pose: Pose | None) -> None:
         """Take a scan and ``T_map_base`` of a reference; None where there is none."""
         if pose is not None:
-            self._add_beams(scan_beams(step.scan, self.config), self.grid.pose_to_grid(pose))
+            at = self.grid.pose_to_grid(pose)
+            self._add_beams(UsedBeams.of(step.scan, self.config), np.array([[at.x, at.y, at.theta]]))
             if self._previous is not None and step.motion is not None:
                 self._add_motion(step, self._previous.inverse() @ pose)
         self._previous = pose
 
-    def _add_beams(self, beams: Beams, pose: Pose) -> None:
-        if not len(beams.ends):
+    def _add_beams(self, beams: UsedBeams, pose: FloatArray) -> None:
+        hits = len(beams.readings)
+        if not hits:
             return
-        turn = np.array([[math.cos(pose.theta), -math.sin(pose.theta)], [math.sin(pose.theta), math.cos(pose.theta)]])
-        ends = beams.ends @ turn.T + (pose.x, pose.y)
-        distance = self._distance(ends)
+        ends = in_grid(pose, beams.ends[None], np.zeros((1, hits)))[0][0]
+        distance = self._obstacles.distances(ends)
         self._distances.append(distance.astype(np.float32))
         self._shares.append(np.array([np.mean(distance > total) for total in TOTALS_M]))
-        bad = ~good_beams(beams, pose, self.grid, self.config.bounds.map_error_m)
+        bad = np.zeros(len(beams), dtype=np.bool_)
+        bad[:hits] = ~good_beams(beams, pose, self._obstacles)[0]
         failures = self.failures
-        failures.count(failures.ended, ends[bad])
-        if beams.rays is not None:
-            blocked = blocked_rays(beams.rays, pose, self.grid)
-            numbers = beams.rays.beams[blocked]
-            laser = beams.rays.origins[blocked] @ turn.T + (pose.x, pose.y)
-            angles = pose.theta + beams.rays.angles[blocked]
-            met = cast_rays(self._mask, self.grid.resolution, laser[:, 0], laser[:, 1], angles)
-            along = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-            failures.count(failures.passed, (laser + met[:, None] * along)[np.isfinite(met)])
-            bad[numbers[numbers >= 0]] = True
-        failures.count(failures.good, ends[~bad])
+        failures.count(failures.ended, ends[bad[:hits]])
+        blocked = beams.rays[blocked_rays(beams, pose, self._obstacles)[0]]
+        laser, angles = (each[0, blocked] for each in in_grid(pose, *(each[None] for each in beams.middle)))
+        met = cast_rays(self._obstacles.mask, self.grid.resolution, laser[:, 0], laser[:, 1], angles)
+        along = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        failures.count(failures.passed, (laser + met[:, None] * along)[np.isfinite(met)])
+        bad[blocked] = True
+        failures.count(failures.good, ends[~bad[:hits]])
         self._bad.append(float(bad.mean()))
-
-    def _distance(self, points: FloatArray) -> FloatArray:
-        """Return how far points, in the grid's frame, are from the nearest closed occupied cell."""
-        count = min(_NEIGHBOURS, self._tree.n)
-        _, near = self._tree.query(points, k=count)
-        centres = self._tree.data[near.reshape(len(points), count)]
-        aside = np.maximum(np.abs(points[:, None, :] - centres) - 0.5 * self.grid.resolution, 0.0)
-        return np.asarray(np.hypot(aside[..., 0], aside[..., 1]).min(axis=1))
 
     def _add_motion(self, step: Step, true: Pose) -> None:
         assert step.motion is not None
         middle = 0.5 * (step.motion.lower + step.motion.upper)
-        half = 0.5 * (step.motion.upper - step.motion.lower)
         aside = np.abs([true.x - middle[0], true.y - middle[1], wrap(true.theta - middle[2])])
         self._translation.append(float(aside[:2].max()))
         self._rotation.append(float(aside[2]))
-        self._ratios.append((float((aside[:2] / half[:2]).max()), float(aside[2] / half[2])))
+        self._kept.append(step.motion.contains(true))
+        self._steps.append(RecordedStep(step.recorded, true))
 
     @property
     def scans(self) -> int:
@@ -120,24 +109,21 @@ class BoundsSurvey:
     def suggestion(self) -> LocalizerConfig:
         """Return the configuration with bounds that this recording keeps in 99 % of its scans and steps.
 
-        The total bound is the smallest one tried that leaves at most 10 % of the beams bad in 95 % of the scans; a motion bound is
-        multiplied by the factor that 99 % of the steps need.
+        The total bound is the smallest one tried that leaves at most 10 % of the beams bad in 95 % of the scans. The motion bounds are
+        those of `fitted`.
         """
         held, column = self.held(), OUTLIERS.index(_TYPICAL_OUTLIERS)
         rows = np.flatnonzero(held[:, column] >= _TYPICAL_SCANS)
         row = int(rows[0]) if len(rows) else len(TOTALS_M) - 1
         bounds = self.config.bounds
         wanted = dataclasses.replace(bounds, map_error_m=round(max(TOTALS_M[row] - bounds.range_error_m, 0.0), 3))
-        if self._ratios:
-            translation, rotation = np.quantile(self._ratios, _HELD, axis=0).tolist()
-            motion = bounds.motion
-            sideways = None if motion.sideways is None else _scaled(motion.sideways, translation)
-            motion = MotionBounds(_scaled(motion.translation, translation), _scaled(motion.rotation, rotation), sideways)
-            wanted = dataclasses.replace(wanted, motion=motion)
+        if self._steps:
+            wanted = dataclasses.replace(wanted, motion=fitted(bounds.motion, self._steps, _HELD))
         config = dataclasses.replace(self.config, bounds=wanted)
         if config.outliers == "auto":
             needed = float(np.quantile([shares[row] for shares in self._shares], _HELD))
-            most = math.ceil(100.0 * (needed + (config.outlier_margin if isinstance(config.outlier_margin, float) else 0.0))) / 100.0
+            margin = 0 if isinstance(config.outlier_margin, int) else Fraction(str(config.outlier_margin))
+            most = math.ceil(100 * (Fraction(str(needed)) + margin)) / 100
             config = dataclasses.replace(config, max_outliers=min(0.9, most))
         return config
 
@@ -155,10 +141,11 @@ class BoundsSurvey:
                 for total, row in zip(TOTALS_M, self.held(), strict=True)
             },
             "motion": {
-                "steps": len(self._ratios),
+                "steps": len(self._steps),
+                "messages": sum(step.messages for step in self._steps),
                 "translation_m": _quantiles(np.array(self._translation)),
                 "rotation_rad": _quantiles(np.array(self._rotation)),
-                "held": float(np.mean(np.array(self._ratios).max(axis=1) <= 1.0)) if self._ratios else None,
+                "held": float(np.mean(self._kept)) if self._kept else None,
             },
         }
 
@@ -168,9 +155,3 @@ def _quantiles(values: FloatArray) -> dict[str, float] | None:
         return None
     found = {f"{share:g}": float(value) for share, value in zip(QUANTILES, np.quantile(values, QUANTILES), strict=True)}
     return {**found, "max": float(values.max())}
-
-
-def _scaled(bound: ErrorBound, factor: float) -> ErrorBound:
-    """Return a bound times a factor, rounded up to two digits."""
-    parts = (factor * value for value in (bound.base, bound.per_metre, bound.per_radian))
-    return ErrorBound(*(math.ceil(value * 10**_DIGITS - 1e-9) / 10**_DIGITS for value in parts))

@@ -8,12 +8,14 @@ import numpy as np
 from ial.contractors.intervals.angle import contains_angle
 from ial.datasets.recording import Step
 from ial.datasets.trajectory import Trajectory
-from ial.lidar.beams import scan_beams
 from ial.lidar.estimate import Estimate
 from ial.lidar.localizer import Localizer
 from ial.pose import Pose
+from ial.study.domain import Domain
 from ial.study.good_beams import bad_beams
+from ial.study.obstacles import Obstacles
 from ial.study.reference import TruthFrame, base_pose
+from ial.study.used_beams import UsedBeams
 
 
 class Containment:
@@ -40,6 +42,8 @@ class Containment:
         self._truth = truth
         self._frame = frame
         self._static = static
+        self._obstacles = Obstacles(localizer.grid)
+        self._domain = Domain(localizer.grid, localizer.config, self._obstacles)
         self._previous: Pose | None = None
         self._was_contained = True
         self._started = False
@@ -84,14 +88,13 @@ class Containment:
 
     def _broken(self, step: Step, pose: Pose, in_grid: Pose, allowed: int) -> list[str]:
         """Return which assumptions the reference pose breaks at a scan, among beams, motion and domain."""
-        config = self._localizer.config
-        beams = scan_beams(step.scan, config)
-        bad = bad_beams(beams, in_grid, self._localizer.grid, config.bounds.map_error_m)
-        broken = ["beams"] if bad > allowed else []
+        at = np.array([[in_grid.x, in_grid.y, in_grid.theta]])
+        beams = UsedBeams.of(step.scan, self._localizer.config)
+        broken = ["beams"] if bad_beams(beams, at, self._obstacles)[0] > allowed else []
         previous = None if self._fresh else self._previous
         if previous is not None and step.motion is not None and not step.motion.contains(previous.inverse() @ pose):
             broken.append("motion")
-        if not self._localizer.model.in_domain(in_grid):
+        if not self._domain.holds(at)[0]:
             broken.append("domain")
         return broken
 

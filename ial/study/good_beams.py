@@ -1,115 +1,101 @@
-"""How many beams of a scan are good at a pose, by the exact definition of a good beam.
+"""How many beams of a scan are bad at poses of the base, by the definition of docs/guarantee.md, in plain NumPy.
 
-This is the slow, obvious twin of the localizer's test: it works on one pose, walks over the cells around each end point and measures
-distances. It shares no code with the search that it judges.
+This is the slow, obvious twin of the localizer's test. It begins at the recorded numbers and shares no code with the search that it judges.
+It never calls a beam good that is bad; near a bound it may call one bad that is good.
 """
 
-import math
-
 import numpy as np
+import numpy.typing as npt
 
-from ial.contractors.kernels import kernel
-from ial.lidar.beams import Beams
-from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
-from ial.pose import Pose
 from ial.study.blocked_rays import blocked_rays
+from ial.study.obstacles import BoolArray, FloatArray, Obstacles, portions
+from ial.study.used_beams import UsedBeams, in_grid
+
+_LINE_CELLS = 0.1
+"""A tenth of a cell lies between the lines on which the ends of a beam are looked for, so a beam good by less may be called bad."""
+
+_FAR_CELLS = 64.0  # an end that may be anywhere within more than this is looked for without asking first
 
 
-@kernel
-def _point_to_cell(x, y, column, row):  # type: ignore[no-untyped-def]
-    """Return the distance of a point from a closed cell, all in cells."""
-    dx = max(column - x, 0.0, x - column - 1.0)
-    dy = max(row - y, 0.0, y - row - 1.0)
-    return math.sqrt(dx * dx + dy * dy)
+def bad_beams(beams: UsedBeams, poses: FloatArray, obstacles: Obstacles) -> npt.NDArray[np.intp]:
+    """Return how many used beams may be bad at poses: those that end nowhere, and those that are blocked; each counts once.
 
+    Parameters
+    ----------
+    beams
+        The used beams of a scan.
+    poses
+        (x, y, θ) of the base in the grid's frame, float64 of shape (m, 3).
+    obstacles
+        The occupied cells of the map.
 
-@kernel
-def _corner_to_segment(cx, cy, ax, ay, bx, by):  # type: ignore[no-untyped-def]
-    dx, dy = bx - ax, by - ay
-    length = dx * dx + dy * dy
-    t = 0.0 if length == 0.0 else min(max(((cx - ax) * dx + (cy - ay) * dy) / length, 0.0), 1.0)
-    return math.sqrt((ax + t * dx - cx) ** 2 + (ay + t * dy - cy) ** 2)
-
-
-@kernel
-def _meets_cell(ax, ay, bx, by, column, row):  # type: ignore[no-untyped-def]
-    """Return whether a segment passes through a closed cell (Liang and Barsky's clipping)."""
-    start, stop = 0.0, 1.0
-    for a, d, low in ((ax, bx - ax, column), (ay, by - ay, row)):
-        if d == 0.0:
-            if a < low or a > low + 1.0:
-                return False
-        else:
-            t0, t1 = (low - a) / d, (low + 1.0 - a) / d
-            start = max(start, min(t0, t1))
-            stop = min(stop, max(t0, t1))
-    return start <= stop
-
-
-@kernel
-def _segment_to_cell(ax, ay, bx, by, column, row):  # type: ignore[no-untyped-def]
-    """Return the distance of a segment from a closed cell, all in cells: at an end of the segment or at a corner, unless they meet."""
-    if _meets_cell(ax, ay, bx, by, column, row):
-        return 0.0
-    nearest = min(_point_to_cell(ax, ay, column, row), _point_to_cell(bx, by, column, row))
-    for cx in (column, column + 1.0):
-        for cy in (row, row + 1.0):
-            nearest = min(nearest, _corner_to_segment(cx, cy, ax, ay, bx, by))
-    return nearest
-
-
-@kernel
-def _near_occupied(ax, ay, bx, by, distance, occupied):  # type: ignore[no-untyped-def]
-    rows, columns = occupied.shape
-    left = max(int(math.floor(min(ax, bx) - distance)) - 1, 0)
-    right = min(int(math.floor(max(ax, bx) + distance)) + 1, columns - 1)
-    below = max(int(math.floor(min(ay, by) - distance)) - 1, 0)
-    above = min(int(math.floor(max(ay, by) + distance)) + 1, rows - 1)
-    for row in range(below, above + 1):
-        for column in range(left, right + 1):
-            if occupied[row, column] and _segment_to_cell(ax, ay, bx, by, float(column), float(row)) <= distance:
-                return True
-    return False
-
-
-@kernel
-def _good(ends, directions, errors, x, y, theta, distance, resolution, occupied, good):  # type: ignore[no-untyped-def]
-    c, s = math.cos(theta), math.sin(theta)
-    for i in range(len(ends)):
-        dx = c * directions[i, 0] - s * directions[i, 1]
-        dy = s * directions[i, 0] + c * directions[i, 1]
-        ex = x + c * ends[i, 0] - s * ends[i, 1]
-        ey = y + s * ends[i, 0] + c * ends[i, 1]
-        along, across = errors[i, 0], errors[i, 1]
-        lines = 1 + 2 * int(math.ceil(across / (0.1 * resolution)))
-        for line in range(lines):
-            shift = across * (2.0 * line / (lines - 1.0) - 1.0) if lines > 1 else 0.0
-            mx, my = ex - shift * dy, ey + shift * dx
-            ax, ay = (mx - along * dx) / resolution, (my - along * dy) / resolution
-            bx, by = (mx + along * dx) / resolution, (my + along * dy) / resolution
-            if _near_occupied(ax, ay, bx, by, distance / resolution, occupied):
-                good[i] = True
-                break
-
-
-def bad_beams(beams: Beams, pose: Pose, grid: OccupancyGrid, map_error_m: float) -> int:
-    """Return how many beams are bad at a pose of the base in the grid's frame: those that end nowhere, and those that are blocked."""
-    bad = ~good_beams(beams, pose, grid, map_error_m)
-    if beams.rays is None:
-        return int(bad.sum())
-    numbers = beams.rays.beams[blocked_rays(beams.rays, pose, grid)]
-    bad[numbers[numbers >= 0]] = True
-    return int(bad.sum() + (numbers < 0).sum())
-
-
-def good_beams(beams: Beams, pose: Pose, grid: OccupancyGrid, map_error_m: float) -> np.ndarray:
-    """Return which beams are good at a pose of the base in the grid's frame, bool of shape (n,).
-
-    A beam is good if a point of its error region lies within `map_error_m` (Euclidean distance) of a closed occupied cell. The region
-    is scanned by segments along the beam, a tenth of a cell apart; with a bearing error a beam that is good by less than that may be
-    counted as bad, never the other way round.
+    Returns
+    -------
+    bad
+        Shape (m,). No fewer than are bad.
     """
-    good = np.zeros(len(beams.ends), dtype=np.bool_)
-    occupied = grid.mask(OCCUPIED)
-    _good(beams.ends, beams.directions, beams.errors, pose.x, pose.y, pose.theta, map_error_m, grid.resolution, occupied, good)
+    return _count(beams, poses, obstacles, good_beams(beams, poses, obstacles))
+
+
+def consistent(beams: UsedBeams, poses: FloatArray, obstacles: Obstacles, outliers: int) -> BoolArray:
+    """Return at which poses certainly at most so many beams are bad, bool of shape (m,): `bad_beams`, without work that changes nothing."""
+    found = np.zeros(len(poses), dtype=np.bool_)
+    rows = np.flatnonzero((~_hopeful(beams, poses, obstacles)).sum(axis=1) <= outliers)
+    good = good_beams(beams, poses[rows], obstacles)
+    few = (~good).sum(axis=1) <= outliers
+    rows, good = rows[few], good[few]
+    found[rows] = _count(beams, poses[rows], obstacles, good) <= outliers
+    return found
+
+
+def good_beams(beams: UsedBeams, poses: FloatArray, obstacles: Obstacles) -> BoolArray:
+    """Return which hits certainly end at an occupied cell, bool of shape (m, hits); parameters as in `bad_beams`.
+
+    A hit is good at a pose if some reading within its error, some bearing within its error and, where the motion during the scan is taken
+    out, some motion within its error put its end within the map's error of a closed occupied cell. All readings along a line are tried at
+    once, as a segment; bearings are tried a tenth of a cell apart, and of the motions the recorded one and the corners of their box.
+    """
+    origins, angles = _lines(beams, obstacles)
+    farthest = beams.readings + beams.bounds.range_error_m
+    nearest = np.maximum(beams.readings - beams.bounds.range_error_m, 0.0)
+    hopeful = _hopeful(beams, poses, obstacles)
+    good = np.zeros_like(hopeful)
+    for some in (slice(0, 1), slice(1, None)):  # most beams are good by the recorded numbers
+        lines = angles[:, some].shape[1]
+        pose, hit = np.nonzero(hopeful & ~good)
+        for part in portions(len(pose), lines):
+            p, h = pose[part], hit[part]
+            at, heading = in_grid(poses[p], origins[h, some], angles[h, some])
+            starts, ends = (_points(at, heading, reading[h]).reshape(-1, 2) for reading in (nearest, farthest))
+            good[p, h] = obstacles.near(starts, ends, beams.bounds.map_error_m).reshape(len(p), lines).any(axis=1)
     return good
+
+
+def _count(beams: UsedBeams, poses: FloatArray, obstacles: Obstacles, good: BoolArray) -> npt.NDArray[np.intp]:
+    """Return how many beams may be bad at each pose, given which hits are good."""
+    bad = np.zeros((len(poses), len(beams)), dtype=np.bool_)
+    bad[:, : len(beams.readings)] = ~good
+    bad[:, beams.rays] |= blocked_rays(beams, poses, obstacles)
+    return np.asarray(bad.sum(axis=1))
+
+
+def _lines(beams: UsedBeams, obstacles: Obstacles) -> tuple[FloatArray, FloatArray]:
+    """Return from where and which way the hits may have gone, in the base frame: of shape (hits, k, 2) and (hits, k)."""
+    origins, angles = beams.seen(beams.turns(_LINE_CELLS * obstacles.resolution))
+    return origins[: len(beams.readings)], angles[: len(beams.readings)]
+
+
+def _points(origins: FloatArray, angles: FloatArray, readings: FloatArray) -> FloatArray:
+    """Return the points (n, k, 2) so far from origins (n, k, 2) in directions (n, k); one reading for each row, (n,)."""
+    return np.asarray(origins + readings[:, None, None] * np.stack([np.cos(angles), np.sin(angles)], axis=-1))
+
+
+def _hopeful(beams: UsedBeams, poses: FloatArray, obstacles: Obstacles) -> BoolArray:
+    """Return which hits have an occupied cell within reach of all that they may mean, by cells; bool of shape (m, hits)."""
+    ends = _points(*_lines(beams, obstacles), beams.readings)
+    aside = np.abs(ends - ends[:, :1]).sum(axis=2).max(axis=1, initial=0.0)
+    reach = (aside + 2.0 * beams.bounds.range_error_m + beams.bounds.map_error_m) / obstacles.resolution
+    tried = reach <= _FAR_CELLS
+    ring = int(reach[tried].max(initial=0.0)) + 1
+    at, _ = in_grid(poses, np.broadcast_to(ends[:, 0], (len(poses), *ends[:, 0].shape)), np.zeros((len(poses), len(ends))))
+    return np.asarray(~tried | obstacles.any_around(at, ring))

@@ -142,9 +142,10 @@ def test_a_recording_without_a_map(refused: Refused, sample: Path) -> None:
     ("content", "message"),
     [
         ("rang_error_m: 0.1", r"config\.yaml: unknown key 'rang_error_m'; allowed are range_error_m, .*; did you mean 'range_error_m'\?"),
-        ("motion: {translation: {bas: 1}}", r"unknown key 'motion\.translation\.bas'; allowed are base, per_metre, per_radian"),
-        ("motion: {sideways: {bas: 1}}", r"unknown key 'motion\.sideways\.bas'; allowed are base, per_metre, per_radian"),
-        ("motion: {sideways: {base: 1}}", r"the key 'motion\.sideways\.per_metre' is missing"),
+        ("motion: {translation: {bas: 1}}", r"unknown key 'motion\.translation\.bas'; allowed are per_message, per_metre, .*per_scan"),
+        ("motion: {sideways: {bas: 1}}", r"unknown key 'motion\.sideways\.bas'; allowed are per_message, per_metre, .*per_scan"),
+        ("motion: {sideways: {base: 1}}", r"'motion\.sideways\.base' has become two: per_scan, .* and per_message, "),
+        ("motion: {rotation: {base: 1}}", r"'motion\.rotation\.base' has become two: per_scan, .* and per_message, "),
         ("motion: {sideways: 3}", r"motion\.sideways is 3"),
         ("map_error_m: -0.1", r"config\.yaml: map_error_m is -0\.1: .*greater than or equal to 0"),
         ("motion: {rotation: {per_radian: -1}}", r"motion\.rotation\.per_radian is -1: .*greater than or equal to 0"),

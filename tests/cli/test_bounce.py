@@ -49,7 +49,7 @@ def test_build_says_what_it_has_built(ial: Cli, hall: Path) -> None:
     assert "hall: 196 configurations, 4 headings, cells of 1 m, bouncing angle 90°" in result.stdout
     assert "177 states, 2 knowledge cycles" in result.stdout
     assert "a localized robot is in 1 to 2 configurations" in result.stdout
-    record = json.loads(ial("bounce", "build", hall, "--out", "f.npz", "--angle", "45/2", "--cell", "1/2", "--json").stdout)
+    record = json.loads(ial("bounce", "build", hall, "--out", "f.npz", "--angle", "45/2", "--cell", "1/2", "--json", "--overwrite").stdout)
     assert (record["headings"], record["bounce_deg"], record["cell_m"]) == (16, 22.5, 0.5)
     assert record["configurations"] == 16 * 4 * 49
 
@@ -191,7 +191,7 @@ def test_simulate_writes_a_stream_that_run_reads(ial: Cli, hall: Path, built: Pa
     stream = Path("stream.txt").read_text()
     assert stream.strip() == "".join(line[0] for line in lines[1:])
     assert "after 30 observations" in ial("bounce", "run", built, "--file", "stream.txt").stdout
-    assert ial(*command).exit_code == 0
+    assert ial(*command, "--overwrite").exit_code == 0
     assert Path("stream.txt").read_text() == stream
 
 

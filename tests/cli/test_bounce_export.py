@@ -47,7 +47,7 @@ def test_a_small_flash_is_a_warning(ial: Cli, built: Path) -> None:
     assert "--minimize colours" in result.stderr
     assert "a larger cell" in result.stderr
     assert Path("hall.h").exists()
-    assert ial("bounce", "export", built, "--out", "hall.h", "--flash", 1198).stderr == ""
+    assert ial("bounce", "export", built, "--out", "hall.h", "--flash", 1198, "--overwrite").stderr == ""
 
 
 def test_verilog(ial: Cli, built: Path) -> None:

@@ -58,12 +58,12 @@ def test_what_is_written_reads_back_to_the_last_bit(tmp_path_factory: pytest.Tem
 
 def test_the_command_line_wins_over_the_environment_that_over_the_file(tmp_path: Path) -> None:
     file = tmp_path / "config.yaml"
-    file.write_text("outliers: 1\nmax_beams: 11\nmap_error_m: 0.11\nmotion: {translation: {base: 0.5}}\n")
+    file.write_text("outliers: 1\nmax_beams: 11\nmap_error_m: 0.11\nmotion: {translation: {per_scan: 0.5}}\n")
     environment = {"IAL_OUTLIERS": "2", "IAL_MAX_BEAMS": "22", "IAL_MOTION_TRANSLATION_PER_METRE": "0.25", "IAL_THREADS": "1"}
     found = resolve(file, ["max_beams=33"], environment, outliers="3", domain=None)
     assert (found.outliers, found.max_beams, found.bounds.map_error_m) == (3, 33, 0.11)
     defaults = LocalizerConfig().bounds.motion
-    assert found.bounds.motion == MotionBounds(ErrorBound(0.5, 0.25, defaults.translation.per_radian), defaults.rotation)
+    assert found.bounds.motion == MotionBounds(replace(defaults.translation, per_scan=0.5, per_metre=0.25), defaults.rotation)
     assert resolve(file, [], environment).outliers == 2
 
 
@@ -110,6 +110,8 @@ def test_an_empty_file_changes_nothing(tmp_path: Path) -> None:
         (["max_beams=["], {}, r"--set max_beams=\[: '\[' is no value"),
         ([], {"IAL_MAX_BEAMS": "-3"}, "IAL_MAX_BEAMS: max_beams is -3: "),
         ([], {"IAL_MAXBEAMS": "3"}, "IAL_MAXBEAMS is no setting of ial; .*did you mean IAL_MAX_BEAMS"),
+        (["motion.rotation.base=1"], {}, "the key .motion.rotation.base. has become two: per_scan, .*per_message"),
+        ([], {"IAL_MOTION_TRANSLATION_BASE": "1"}, "variable IAL_MOTION_TRANSLATION_BASE has become two: per_scan, .*per_message"),
         ([], {"IAL_XYZZY": "3"}, "IAL_XYZZY is no setting of ial; unset it"),
     ],
 )

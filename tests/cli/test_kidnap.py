@@ -27,5 +27,6 @@ def test_the_reference_is_never_replaced(ial: Callable[..., Any], refused: Calla
     ial("localize", "--out", "run")
     truth = tmp_path / "run" / "trajectory.tum"
     before = truth.read_bytes()
-    assert "this is the reference itself" in refused("kidnap", sample, truth.with_suffix(".mcap"), "--at", "10:25", "--truth", truth)
+    command = ("kidnap", sample, truth.with_suffix(".mcap"), "--at", "10:25", "--truth", truth)
+    assert "an input of the command" in refused(*command, "--overwrite")
     assert truth.read_bytes() == before

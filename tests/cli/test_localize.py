@@ -79,10 +79,12 @@ def test_a_known_start_narrows_the_first_answer(ial: Callable[..., Any], tmp_pat
     ial("localize", "--out", "all", "--to", 1)
     found = bounds_of(tmp_path / "all")[0][3][0]
     at = [0.5 * sum(found.x), 0.5 * sum(found.y), 0.5 * sum(found.theta)]
-    ial("localize", "--out", "near", "--to", 1, "--initial", *at, "--initial-radius", 0.4, 0.3)
-    (near,) = (scan[3] for scan in bounds_of(tmp_path / "near"))
-    assert len(near) >= 1
-    assert all(abs(0.5 * sum(each.x) - at[0]) < 0.6 and abs(0.5 * sum(each.y) - at[1]) < 0.6 for each in near)
+    for turns in (0, -1, 100):
+        start = (*at[:2], at[2] + 2.0 * math.pi * turns)
+        ial("localize", "--out", f"near{turns}", "--to", 1, "--initial", *start, "--initial-radius", 0.4, 0.3)
+        (near,) = (scan[3] for scan in bounds_of(tmp_path / f"near{turns}"))
+        assert len(near) >= 1
+        assert all(abs(0.5 * sum(each.x) - at[0]) < 0.6 and abs(0.5 * sum(each.y) - at[1]) < 0.6 for each in near)
 
 
 def test_the_report_names_the_measures(ial: Callable[..., Any], tmp_path: Path) -> None:

@@ -161,9 +161,7 @@ def test_what_is_refused(lines: list[bytes], refused: Callable[..., str]) -> Non
     Path("state").unlink()
     assert stream(lines[:8], "--state", "state", "--out", "out.jsonl").returncode == 0
     assert "another map, configuration" in refused("stream", "--map", MAP, "--state", "state", "--set", "max_beams=90")
-    Path("short.jsonl").write_bytes(b"{}\n")
-    assert "remove both" in refused("stream", "--map", MAP, "--state", "state", "--out", "short.jsonl")
-    assert "give the --state it belongs to" in refused("stream", "--map", MAP, "--out", "out.jsonl")
+    assert "exists already" in refused("stream", "--map", MAP, "--out", "out.jsonl")
     assert "cannot be written" in refused("stream", "--map", MAP, "--out", "nowhere/out.jsonl")
 
 
@@ -193,7 +191,7 @@ def test_convert_writes_the_lines_of_the_embedded_recording(
     assert len(list(open_recording(Path("sample.jsonl")).readings())) == 37
     assert "one file is written" in refused("convert", "sample.jsonl", "a.mcap", "--jsonl", "b.jsonl")
     assert "one file is written" in refused("convert", "sample.jsonl")
-    assert "the recording itself" in refused("convert", "sample.jsonl", "--jsonl", "sample.jsonl")
+    assert "an input of the command" in refused("convert", "sample.jsonl", "--jsonl", "sample.jsonl", "--overwrite")
     assert "cannot be written" in refused("convert", "--jsonl", "nowhere/sample.jsonl")
     assert [path.name for path in Path().iterdir()] == ["sample.jsonl"]
 
@@ -213,19 +211,19 @@ def test_a_state_without_a_folder_and_lines_into_a_folder_are_refused_before_any
         assert result.stdout == b""
 
 
-@pytest.mark.parametrize("bytes_written", [0, 5, 200, None])
-def test_killed_before_the_first_state_it_begins_anew(lines: list[bytes], expected: bytes, bytes_written: int | None) -> None:
-    Path("out.jsonl").write_bytes(expected.splitlines(keepends=True)[0][:bytes_written])
-    result = stream(lines, "--out", "out.jsonl", "--state", "state")
-    assert result.returncode == 0, result.stderr
-    assert Path("out.jsonl").read_bytes() == expected
-
-
-def test_what_another_run_has_written_is_not_overwritten(lines: list[bytes], expected: bytes) -> None:
-    first, second = expected.splitlines(keepends=True)[:2]
-    for held, options in ((first + second, ("--state", "state")), (first, ()), (b"mine", ("--state", "state"))):
-        Path("out.jsonl").write_bytes(held)
-        result = stream(lines[:2], "--out", "out.jsonl", *options)
+def test_its_own_input_is_not_written_to(lines: list[bytes]) -> None:
+    path = Path("fed.jsonl")
+    path.write_bytes(b"".join(lines))
+    for options, appended in ((("--out", path, "--overwrite"), False), (("--state", path), False), ((), True)):
+        with path.open("rb") as source, path.open("ab") as target:
+            result = subprocess.run(
+                [*COMMAND, *map(str, options)],
+                stdin=source,
+                stdout=target if appended else subprocess.DEVNULL,
+                stderr=subprocess.PIPE,
+                timeout=120,
+                check=False,
+            )
         assert result.returncode == 2
-        assert b"exists already" in result.stderr
-        assert Path("out.jsonl").read_bytes() == held
+        assert b"this is an input of the command" in result.stderr
+        assert path.read_bytes() == b"".join(lines)

@@ -41,4 +41,4 @@ def test_what_is_refused(refused: Callable[..., str], other: Path) -> None:
     assert "once for each map" in refused("where")
     assert "given twice" in refused("where", "--map", other, "--map", other)
     assert "does not exist" in refused("where", "--map", "nowhere.yaml.bak")
-    assert "no such folder" in refused("where", "--map", other, "--out", "nowhere/a.jsonl")
+    assert "no folder nowhere" in refused("where", "--map", other, "--out", "nowhere/a.jsonl")

@@ -1,118 +1,141 @@
 import ast
+import functools
 import os
+import resource
 import shutil
-import subprocess
-import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from ial.contractors.kernels import source_files, source_hash
+from ial.contractors.kernel_sources import kernel_sources
+from tests.contractors.package_copy import RESULT, ROOT, USE, PackageCopy
+from tests.contractors.pickle_bomb import plant
 
-ROOT = Path(__file__).resolve().parents[2]
-MESSAGE = "compiling kernels, once"
-
-
-class Copy:
-    """A copy of the package that a test may change, run in processes of its own."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.package = folder / "ial"
-        self.home = folder / "cache"
-        self.package.mkdir()
-        for name in ("__init__.py", "errors.py", "lazy.py", "pose.py"):
-            shutil.copy(ROOT / "ial" / name, self.package)
-        shutil.copytree(ROOT / "contractors", self.package / "contractors", ignore=shutil.ignore_patterns("__pycache__"))
-
-    def start(self, script: str) -> subprocess.Popen[str]:
-        environment = {name: value for name, value in os.environ.items() if name not in ("IAL_CACHE_DIR", "NUMBA_DISABLE_JIT")}
-        environment |= {"PYTHONPATH": str(self.folder), "XDG_CACHE_HOME": str(self.home)}
-        lines = f"import ial\nassert ial.__file__.startswith({str(self.folder)!r})\n{script}"
-        command = [sys.executable, "-c", lines]
-        return subprocess.Popen(command, env=environment, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-
-    def run(self, script: str) -> tuple[str, str]:
-        process = self.start(script)
-        out, err = process.communicate(timeout=100)
-        assert process.returncode == 0, err
-        return out.strip(), err
-
-    def cache(self) -> Path:
-        return Path(self.run("from ial.contractors.kernels import cache_folder; print(cache_folder())")[0])
-
-
-STEPS = "from ial.contractors.rounding import check_rounding, up, down; check_rounding(); print(up(1.0) > 1.0)"
-USER = "from ial.contractors.user import twice; print(twice(1.0))"
+MESSAGE = "compiling kernels, once (to be kept in "
+FILES = list(kernel_sources().files.values())
 
 
 @pytest.fixture
-def copy(tmp_path: Path) -> Copy:
-    return Copy(tmp_path)
+def copy(tmp_path: Path) -> PackageCopy:
+    return PackageCopy(tmp_path)
 
 
-def test_the_cache_is_beside_the_code_and_filled_once(copy: Copy) -> None:
-    folder = copy.cache()
-    assert folder.parent == copy.package / "contractors" / "__pycache__"
-    assert folder.name.startswith("kernels-")
-    first, second = copy.run(STEPS), copy.run(STEPS)
-    assert first[0] == second[0] == "True"
-    assert first[1].count(MESSAGE) == 1
-    assert str(folder) in first[1]
-    assert MESSAGE not in second[1]
-    assert list(folder.rglob("*.nbc"))
+def test_code_is_kept_beside_the_users_own_code_and_compiled_once(copy: PackageCopy) -> None:
+    assert copy.use() == (RESULT, [f"{MESSAGE}{copy.kept[0].parent})"])
+    assert {file.parent.parent for file in copy.kept} == {copy.package / "contractors" / "__pycache__"}
+    assert len(copy.kept) == 3
+    assert copy.use() == (RESULT, [])
 
 
-def test_the_folder_changes_with_a_kernel_and_only_with_a_kernel(copy: Copy) -> None:
-    before = copy.cache()
-    contractor = copy.package / "contractors" / "contractor.py"
-    contractor.write_text(contractor.read_text() + "\n# a change\n")
-    assert copy.cache() == before
-    arithmetic = copy.package / "contractors" / "intervals" / "arithmetic.py"
-    arithmetic.write_text(arithmetic.read_text() + "\n# a change\n")
-    assert copy.cache() != before
+def test_a_change_of_a_constant_in_a_file_without_kernels_is_noticed(copy: PackageCopy) -> None:
+    copy.use()
+    copy.constant.write_text("STEP = 2.00\n")
+    result, lines = copy.use()
+    assert (result, len(lines)) == ("3.0 5.0 10.0", 1)
 
 
-def test_a_change_in_a_called_kernel_of_another_file_is_noticed(copy: Copy) -> None:
-    called, user = (copy.package / "contractors" / name for name in ("called.py", "user.py"))
-    called.write_text("from ial.contractors.kernels import kernel\n\n\n@kernel\ndef step(x):\n    return x + 1.0\n")
-    user.write_text(
-        "from ial.contractors.called import step\nfrom ial.contractors.kernels import kernel\n\n\n"
-        "@kernel\ndef twice(x):\n    return step(step(x))\n"
-    )
-    assert copy.run(USER)[0] == "3.0"
-    called.write_text(called.read_text().replace("1.0", "2.0"))
-    assert copy.run(USER)[0] == "5.0"
+CORNER = """
+import numpy as np
+from ial.contractors.kernels import kernel
+from ial.lidar.corners import OFFSET, corners
 
 
-def test_a_read_only_installation_uses_the_cache_of_the_user(copy: Copy) -> None:
-    (copy.package / "contractors" / "__pycache__").write_text("")  # a file in the way stops even the superuser
-    assert copy.cache().parent == copy.home / "ial"
-    assert MESSAGE in copy.run(STEPS)[1]
-    assert MESSAGE not in copy.run(STEPS)[1]
+@kernel
+def corner(bounds):
+    return corners(bounds, 0, OFFSET, OFFSET, OFFSET, OFFSET, np.int32(9), np.int32(9))[0]
 
 
-def test_two_processes_may_compile_at_once(copy: Copy) -> None:
-    processes = [copy.start(STEPS) for _ in range(2)]
+print(corner(np.full((1, 4), 4.5)))
+"""
+
+
+def test_a_change_of_an_intrinsic_is_noticed(copy: PackageCopy) -> None:
+    (copy.package / "lidar").mkdir()
+    corners = copy.package / "lidar" / "corners.py"
+    shutil.copy(ROOT / "ial" / "lidar" / "corners.py", corners)
+    (copy.package / "lidar" / "corner.py").write_text(CORNER)
+    assert copy.use("import ial.lidar.corner")[0] == "4"
+    assert len(copy.kept) == 1
+    text = corners.read_text()
+    changed = text.replace("[int(OFFSET)] * 4", "[int(OFFSET) - 3] * 4")
+    assert changed != text
+    corners.write_text(changed)
+    assert copy.use("import ial.lidar.corner")[0] == "7"
+
+
+def test_two_processes_may_compile_at_once(copy: PackageCopy) -> None:
+    processes = [copy.start() for _ in range(2)]
     results = [process.communicate(timeout=100) for process in processes]
-    assert [out.strip() for out, _ in results] == ["True", "True"], results
+    assert [out.strip() for out, _ in results] == [RESULT, RESULT], results
+    assert len(copy.kept) == 3
 
 
-def test_the_hash_covers_the_kernels_of_every_room() -> None:
-    names = {file.name for file in source_files()}
-    assert {"kernels.py", "rounding.py", "arithmetic.py", "trigonometric.py", "operation.py", "polar.py", "relaxation.py"} <= names
-    assert "contractor.py" not in names
-    assert len(source_hash()) == 16
+def test_a_disk_that_takes_no_more_is_said_in_one_line(copy: PackageCopy) -> None:
+    _, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    limit = f"import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (4096, {hard}))\n"
+    result, (announced, line) = copy.use(limit + USE)
+    assert (result, announced.startswith(MESSAGE)) == (RESULT, True)
+    assert line.startswith("compiled kernels are no longer kept in ")
+    assert line.endswith("File too large; IAL_CACHE_DIR may name another folder")
+    assert not list(copy.kept)
+    assert {path.name for path in copy.package.rglob("*") if path.is_file() and path.suffix not in (".py", ".pyc")} == set()
+
+
+@pytest.fixture(scope="module")
+def planted(tmp_path_factory: pytest.TempPathFactory) -> PackageCopy:
+    """A copy whose kernels are kept in ``parent/shared``, where somebody has replaced them by what makes the file ``run``."""
+    copy = PackageCopy(tmp_path_factory.mktemp("planted"))
+    copy.use(IAL_CACHE_DIR=str(copy.folder / "parent" / "shared"))
+    plant(copy.folder / "parent", copy.folder / "run")
+    return copy
+
+
+def lay_open(path: Path, mode: int) -> None:
+    path.chmod(mode)
+
+
+def give_away(path: Path, user: int) -> None:
+    if os.geteuid() != 0:
+        pytest.skip("only root can give folders away")
+    os.chown(path, user, user)
+
+
+@pytest.mark.parametrize(
+    ("spoil", "place", "how"),
+    [
+        (lay_open, "parent/shared", 0o777),
+        (lay_open, "parent/shared", 0o770),
+        (lay_open, "parent", 0o770),
+        (give_away, "parent/shared", 65534),
+    ],
+)
+def test_nothing_is_run_from_a_folder_that_others_can_change(
+    planted: PackageCopy, spoil: Callable[[Path, int], None], place: str, how: int
+) -> None:
+    shared = planted.folder / "parent" / "shared"
+    spoil(planted.folder / place, how)
+    result, lines = planted.use(IAL_CACHE_DIR=str(shared))
+    assert (result, (planted.folder / "run").exists()) == (RESULT, False)
+    assert lines[0].startswith(f"compiled kernels are not kept in {shared}: {planted.folder / place} ")
+    assert [line.startswith(MESSAGE) for line in lines[1:]] in ([], [True])  # beside the code, where they may have been kept meanwhile
+    for path in (planted.folder / "parent", shared):
+        path.chmod(0o700)
+        os.chown(path, os.geteuid(), -1)
+
+
+@functools.cache
+def tree(file: Path) -> ast.Module:
+    return ast.parse(file.read_text())
 
 
 def is_kernel(function: ast.FunctionDef) -> bool:
     return any(isinstance(decorator, ast.Name) and decorator.id == "kernel" for decorator in function.decorator_list)
 
 
-@pytest.mark.parametrize("file", source_files(), ids=lambda file: file.name)
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
 def test_no_kernel_gives_up_ieee_semantics_or_runs_numbas_own_threads(file: Path) -> None:
-    tree = ast.parse(file.read_text())
-    for node in ast.walk(tree):
+    for node in ast.walk(tree(file)):
         if isinstance(node, ast.keyword) and node.arg in ("fastmath", "parallel"):
             assert isinstance(node.value, ast.Constant), ast.dump(node)
             assert node.value.value is False, f"{file}: {node.arg}"
@@ -126,6 +149,5 @@ def test_no_kernel_gives_up_ieee_semantics_or_runs_numbas_own_threads(file: Path
 
 
 def test_the_sources_hold_kernels_at_all() -> None:
-    trees = [ast.parse(file.read_text()) for file in source_files()]
-    kernels = [node.name for tree in trees for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and is_kernel(node)]
+    kernels = [node.name for file in FILES for node in ast.walk(tree(file)) if isinstance(node, ast.FunctionDef) and is_kernel(node)]
     assert {"add", "sin", "contract_polar"} <= set(kernels)

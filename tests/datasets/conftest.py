@@ -9,6 +9,7 @@ import pytest
 
 from ial.datasets.bag_writer import BagWriter
 from ial.datasets.odometry import Odometry
+from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.recording import Reading, Recording
 from ial.datasets.scan import LaserScan, Mounting
 from ial.pose import Pose
@@ -23,8 +24,13 @@ def canonical(reading: Reading) -> Canonical:
     scan, odometry = reading.scan, reading.odometry
     numbers = (scan.angle_min, scan.angle_increment, scan.range_min, scan.range_max, scan.time_increment, *vars(scan.mounting).values())
     pose = (odometry.x, odometry.y, odometry.pose, odometry.error_m, odometry.error_rad)
-    end = None if reading.end is None else (reading.end.x, reading.end.y, reading.end.pose, reading.end.error_m, reading.end.error_rad)
-    return (reading.stamp_ns, scan.ranges.tobytes(), numbers, pose, scan.frame_id, end)
+    sweep = None if scan.sweep is None else bits(scan.sweep)
+    return (reading.stamp_ns, scan.ranges.tobytes(), numbers, pose, scan.frame_id, sweep, bits(reading.messages))
+
+
+def bits(path: OdometryPath) -> Canonical:
+    """Return all bits of a path of odometry."""
+    return (path.stamps_ns.tobytes(), path.numbers.tobytes())
 
 
 @pytest.fixture
@@ -34,17 +40,25 @@ def canonical_steps() -> Callable[[Recording], list[Canonical]]:
 
 
 def synthetic_readings(count: int = 12, mounting: Mounting | None = None) -> Iterator[Reading]:
-    """Yield scans with every kind of beam, at poses all around the circle."""
+    """Yield scans with every kind of beam, at poses all around the circle; messages come between them and during them."""
     random = np.random.default_rng(5)
+
+    def somewhere(*errors: float) -> Odometry:
+        return Odometry.of(Pose(*random.uniform(-40.0, 40.0, 2).tolist(), float(random.uniform(-math.pi, math.pi))), *errors)
+
+    messages = OdometryPath.of()
     for index in range(count):
         ranges = random.uniform(0.0, 12.0, 40).astype(np.float32)
         ranges[:6] = [math.nan, math.inf, -math.inf, 0.0, 12.0, 0.01]
-        scan = LaserScan(
-            index * SECOND // 3, ranges, -2.0, 0.1, 0.05, 10.0, time_increment=1e-4, mounting=mounting or Mounting(0.2, -0.1, 0.3)
-        )
-        pose = Pose(*random.uniform(-40.0, 40.0, 2).tolist(), float(random.uniform(-math.pi, math.pi)))
-        end = Odometry.of(pose @ Pose(0.01, 0.0, 0.02), 0.001, 0.002) if index < count - 1 else None  # a recording ends with a scan
-        yield Reading(index, scan.stamp_ns, Odometry.of(pose), scan, end)
+        stamp = index * SECOND // 3
+        at = somewhere(*([0.01, 0.02] if index % 3 == 1 else []))  # some are interpolated
+        during = [(stamp + ms * 10**6, somewhere()) for ms in (1, 3)]
+        end = stamp + round(39 * SECOND * float(np.float32(1e-4)))
+        sweep = None if index == count - 1 else OdometryPath.of([(stamp, at), *during, (end, somewhere(0.001, 0.002))])
+        limits, place = (-2.0, 0.1, 0.05, 10.0, 1e-4), mounting or Mounting(0.2, -0.1, 0.3)
+        yield Reading(index, stamp, at, LaserScan(stamp, ranges, *limits, mounting=place, sweep=sweep), messages)
+        behind = [(stamp + ms * 10**6, somewhere()) for ms in (50, 120, 300)]
+        messages = OdometryPath.of([*during, *behind])
 
 
 class Bag:

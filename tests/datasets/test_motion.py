@@ -1,5 +1,6 @@
 """Tests of interval motions against exact and high-precision arithmetic."""
 
+import itertools
 import math
 
 import mpmath
@@ -10,6 +11,7 @@ from hypothesis import strategies as st
 
 from ial.datasets.motion import ErrorBound, Motion, MotionBounds
 from ial.datasets.odometry import Odometry
+from ial.datasets.odometry_path import OdometryPath
 from ial.errors import ConfigError
 from ial.pose import Pose
 
@@ -56,6 +58,48 @@ def test_between_encloses_the_exact_difference(previous: Pose, now: Pose) -> Non
     motion = Motion.between(before, after)
     assert _holds(motion, _step(_exact(before.pose), _exact(after.pose)))
     assert (motion.upper - motion.lower < 1e-12).all()
+
+
+def test_between_encloses_the_exact_motion_of_recorded_quaternions() -> None:
+    """Of any length; their headings are 2·atan2(z, w), to the last bit and beyond."""
+    random = np.random.default_rng(8)
+    for _ in range(2000):
+        pair = []
+        for _ in range(2):
+            x, y = random.uniform(-50.0, 50.0, 2).tolist()
+            z, w = (random.normal(size=2) * 10.0 ** random.uniform(-3.0, 3.0)).tolist()
+            pair.append((Odometry(x, y, z, w), (mpmath.mpf(x), mpmath.mpf(y), 2 * mpmath.atan2(z, w))))
+        (before, exactly_before), (after, exactly_after) = pair
+        motion = Motion.between(before, after)
+        assert _holds(motion, _step(exactly_before, exactly_after))
+        assert (motion.upper - motion.lower < 1e-12).all()
+
+
+def test_a_path_is_the_composition_of_its_pieces() -> None:
+    random = np.random.default_rng(4)
+    parts = [(0.01, 0.1, 0.2, 0.3), (0.02, 0.2, 0.1, 0.05), (0.0, 0.0, 1.0, 0.0)]
+    once = np.array([0.5, 0.1, 0.4])
+    apart = MotionBounds(*(ErrorBound(*part) for part in parts))
+    bounds = MotionBounds(*(ErrorBound(*part, scan) for part, scan in zip(parts, once[[0, 2, 1]], strict=True)))
+    for count in (2, 3, 9):
+        stamps = np.cumsum(random.integers(1, 10**9, count))
+        path = OdometryPath(stamps, np.concatenate([random.normal(size=(count, 4)), random.uniform(0.0, 0.1, (count, 2))], axis=1))
+        expected = Motion.identity()
+        for (start, first), (stop, second) in itertools.pairwise(path):
+            piece = apart.enclose(Motion.between(first, second), 1e-9 * float(stop - start))
+            expected = piece if start == stamps[0] else expected.compose(piece)
+        found = bounds.along(path)
+        assert found.lower[:2] == pytest.approx(expected.lower[:2] - once[:2], abs=1e-9)
+        assert found.upper[:2] == pytest.approx(expected.upper[:2] + once[:2], abs=1e-9)
+        assert found.upper[2] - found.lower[2] == pytest.approx(min(2.0 * math.pi, expected.upper[2] - expected.lower[2] + 0.8), abs=1e-9)
+
+
+def test_odometry_of_which_nothing_is_known_gives_every_motion() -> None:
+    path = OdometryPath.of([(0, Odometry(0.0, 0.0)), (1, Odometry(1.0, 2.0, 0.0, 1.0, math.inf, math.inf)), (2, Odometry(3.0, 0.0))])
+    found = MotionBounds().along(path)
+    assert np.isinf(found.lower[:2]).all()
+    assert np.isinf(found.upper[:2]).all()
+    assert found.upper[2] - found.lower[2] >= 2.0 * math.pi
 
 
 @given(poses, poses, shares, shares)
@@ -110,10 +154,10 @@ def test_unknown_absorbs_everything_and_is_the_full_circle() -> None:
 
 @given(poses, st.floats(0.0, 0.3), st.floats(0.0, 0.3), st.floats(0.0, 0.3), shares)
 def test_enclose_holds_what_the_formula_allows(
-    delta: Pose, base: float, per_metre: float, per_radian: float, share: tuple[float, ...]
+    delta: Pose, per_message: float, per_metre: float, per_radian: float, share: tuple[float, ...]
 ) -> None:
-    bounds = MotionBounds(ErrorBound(base, per_metre, per_radian), ErrorBound(base / 2, per_metre / 2, per_radian / 2))
-    half = base + mpmath.mpf(per_metre) * mpmath.hypot(delta.x, delta.y) + mpmath.mpf(per_radian) * abs(mpmath.mpf(delta.theta))
+    bounds = MotionBounds(ErrorBound(per_message, per_metre, per_radian), ErrorBound(per_message / 2, per_metre / 2, per_radian / 2))
+    half = per_message + mpmath.mpf(per_metre) * mpmath.hypot(delta.x, delta.y) + mpmath.mpf(per_radian) * abs(mpmath.mpf(delta.theta))
     dx, dy, turn = (2.0 * part - 1.0 for part in share)
     motion = bounds.enclose(delta)
     assert _holds(motion, (delta.x + dx * half, delta.y + dy * half, delta.theta + turn * half / 2))

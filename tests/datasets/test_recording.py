@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from ial.datasets.in_memory import InMemoryRecording
-from ial.datasets.motion import ErrorBound, Motion, MotionBounds
+from ial.datasets.motion import ErrorBound, MotionBounds
 from ial.datasets.odometry import Odometry
 from ial.datasets.recording import Reading, Step, steps
 from ial.datasets.scan import LaserScan
@@ -41,7 +41,7 @@ def test_the_motion_in_between_is_composed_of_every_recorded_step(recording: InM
     first, second, third = list(steps(recording, BOUNDS, 1, 8, 3))
     assert first.motion is None
     for step, begin in ((second, 1), (third, 4)):
-        one, two, three = (BOUNDS.enclose(Motion.between(poses[index], poses[index + 1])) for index in range(begin, begin + 3))
+        one, two, three = (BOUNDS.along(path) for path in step.recorded)
         expected = one.compose(two).compose(three)
         assert step.motion is not None
         assert np.array_equal(step.motion.lower, expected.lower)
@@ -53,7 +53,7 @@ def test_the_motion_in_between_is_composed_of_every_recorded_step(recording: InM
 def test_a_skipped_scan_in_between_loses_no_motion(readings: Maker) -> None:
     every = list(readings(5))
     direct = list(steps(InMemoryRecording("gap", [every[0], every[3]]), BOUNDS))
-    expected = BOUNDS.enclose(Motion.between(every[0].odometry, every[3].odometry))
+    expected = BOUNDS.along(every[3].messages.joining((0, every[0].odometry), (every[3].stamp_ns, every[3].odometry)))
     assert direct[1].motion is not None
     assert np.array_equal(direct[1].motion.lower, expected.lower)
 
@@ -92,8 +92,8 @@ def test_a_recording_in_memory_must_be_in_order(readings: Maker) -> None:
 def test_odometry_errors_widen_the_motion(readings: Maker) -> None:
     first, second = readings(2)
     at = second.odometry
-    vague = Reading(1, second.stamp_ns, Odometry(at.x, at.y, at.z, at.w, error_m=0.5, error_rad=0.1), second.scan)
-    exact = list(steps(InMemoryRecording("exact", [first, second]), BOUNDS))[1].motion
+    plain, vague = (Reading(1, second.stamp_ns, Odometry(at.x, at.y, at.z, at.w, *errors), second.scan) for errors in ((), (0.5, 0.1)))
+    exact = list(steps(InMemoryRecording("exact", [first, plain]), BOUNDS))[1].motion
     wider = list(steps(InMemoryRecording("vague", [first, vague]), BOUNDS))[1].motion
     assert exact is not None
     assert wider is not None
@@ -103,13 +103,11 @@ def test_odometry_errors_widen_the_motion(readings: Maker) -> None:
 def test_the_motion_during_a_scan_comes_from_the_odometry_at_its_last_beam(readings: Maker) -> None:
     recorded = list(readings(4))
     for step, reading in zip(steps(InMemoryRecording("swept", recorded), BOUNDS), recorded, strict=True):
-        if reading.end is None:
-            assert step.scan.sweep is None
-        else:
-            sweep = step.scan.sweep
-            assert sweep is not None
-            assert (sweep.x, sweep.y, sweep.theta) == pytest.approx((0.01, 0.0, 0.02), abs=1e-9)
-            assert step.scan.end_ns == reading.stamp_ns + round(39 * 1e9 * float(np.float32(1e-4)))
+        sweep = step.scan.sweep
+        assert sweep is reading.scan.sweep
+        if sweep is not None:
+            assert (sweep.stamps_ns[0], sweep.stamps_ns[-1]) == (reading.stamp_ns, step.scan.end_ns)
+            assert next(iter(sweep))[1] == reading.odometry
 
 
 def test_steps_go_on_behind_a_mark(recording: InMemoryRecording) -> None:

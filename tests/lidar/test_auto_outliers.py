@@ -9,7 +9,9 @@ from ial.lidar.beams import scan_beams, select_beams
 from ial.lidar.config import LocalizerConfig
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
-from ial.study.good_beams import good_beams
+from ial.study.good_beams import bad_beams
+from ial.study.obstacles import Obstacles
+from ial.study.used_beams import UsedBeams
 from tests.lidar.scenes import Scene, random_scene
 
 SCENES = 60
@@ -44,8 +46,8 @@ def test_a_truth_with_at_most_the_reported_number_of_bad_beams_is_kept_over_a_ru
         localizer = Localizer(scene.grid, config=auto(scene))
         for (step, estimate), pose in zip(localize(scene.recording, localizer), scene.path, strict=True):
             at = scene.grid.pose_to_grid(pose)
-            beams = scan_beams(step.scan, localizer.config)
-            bad = len(beams) - int(good_beams(beams, at, scene.grid, localizer.config.bounds.map_error_m).sum())
+            beams = UsedBeams.of(step.scan, localizer.config)
+            (bad,) = bad_beams(beams, np.array([[at.x, at.y, at.theta]]), Obstacles(scene.grid))
             steps += 1
             if bad > estimate.outliers_allowed:
                 break  # the condition of the guarantee fails; what follows is not promised

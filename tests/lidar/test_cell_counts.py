@@ -1,10 +1,13 @@
 """The search's last levels against the slow twin, and against the test of single boxes."""
 
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.threads import set_threads
+from ial.lidar.beams import Beams
 from ial.lidar.cell_counts import count_cells
 from ial.lidar.lattice import Lattice, divide
 from ial.lidar.scan_contractor import ScanContractor
@@ -105,6 +108,32 @@ def test_cells_outside_the_domain_are_dropped_on_any_number_of_threads(threads: 
     assert cells.upper[:, 0].max() == pytest.approx(6.6)
     assert (cells.lower[:, 1].min(), cells.upper[:, 1].max()) == pytest.approx((0.9, 2.1))
     assert len(cells) == 17 * 12 * lattice.layers
+
+
+@pytest.mark.parametrize("resolution", [0.05, 1.0 / 3.0, 0.0333, 0.1])
+@pytest.mark.parametrize("at", [100, 4_096, 32_700])
+@pytest.mark.parametrize("axis", [0, 1])
+def test_far_from_the_corner_of_a_map_the_parts_of_a_cell_drift_against_its_cells_and_no_pose_is_lost(
+    axis: int, at: int, resolution: float
+) -> None:
+    """A pose by the upper edge of its cell, and a beam that ends, exactly, just behind the near edge of the only occupied cell."""
+    lattice = Lattice(2.0 * resolution, 0.5, 2)
+    step, cell = Fraction(lattice.position_m), Fraction(resolution)
+    drift = at * (step - 2 * cell)
+    assert drift > 0
+    pose = np.array([resolution, resolution, 0.0])
+    pose[axis] = float(at * step - drift / 8)
+    reach = float(5 * cell - drift / 2)
+    mask = np.zeros((8, 2 * at + 16), dtype=np.bool_)
+    mask[:, 2 * at + 5] = True
+    assert Fraction(float(pose[axis])) < at * step
+    assert 0 < Fraction(float(pose[axis])) + Fraction(reach) - (2 * at + 5) * cell < drift
+    ahead = np.array([[1.0, 0.0]]) if axis == 0 else np.array([[0.0, 1.0]])
+    mask = mask if axis == 0 else np.ascontiguousarray(mask.T)
+    beams = Beams(reach * ahead, ahead, np.zeros((1, 2)), 0)
+    tiles = lattice.tiles(Boxes(pose[None], pose[None]))
+    words, _ = count_cells(tiles, lattice, beams, CellIndex(mask, resolution), CellIndex(~mask, resolution, compact=True), 0.0)
+    assert lattice.boxes(type(tiles)(tiles.keys, words)).contain(pose).any()
 
 
 def test_no_tiles_are_no_trouble() -> None:

@@ -10,6 +10,7 @@ from ial.errors import OutputError, RecordingError
 from ial.lidar.checkpoint import Checkpoint, fingerprint
 from ial.lidar.config import LocalizerConfig
 from ial.lidar.localizer import Localizer
+from ial.lidar.output_end import OutputEnd
 from ial.lidar.run import localize
 
 
@@ -22,11 +23,11 @@ def test_a_run_goes_on_as_if_it_had_not_been_stopped(recording: Recording, tmp_p
     whole = list(localize(recording, Localizer(sample_grid()), start=1, every=3))
     first = Localizer(sample_grid())
     begun = list(localize(recording, first, start=1, stop=12, every=3))
-    Checkpoint(begun[-1][0].mark, first.poses, 77, fingerprint(first)).save(tmp_path / "state")
+    Checkpoint(begun[-1][0].mark, first.poses, OutputEnd("answers", 77, "ab", "é\n"), fingerprint(first)).save(tmp_path / "state")
     second = Localizer(sample_grid())
     checkpoint = Checkpoint.load(tmp_path / "state", second)
     assert checkpoint is not None
-    assert checkpoint.written == 77
+    assert checkpoint.output == OutputEnd("answers", 77, "ab", "é\n")
     second.resume(checkpoint.poses)
     ended = list(localize(recording, second, start=1, every=3, after=checkpoint.mark))
     assert [step.index for step, _ in (*begun, *ended)] == [step.index for step, _ in whole]
@@ -42,7 +43,7 @@ def test_every_part_of_the_set_is_kept(recording: Recording, tmp_path: Path) -> 
     step = next(steps(recording, localizer.config.bounds.motion))
     localizer.update(None, step.scan)
     poses = replace(localizer.poses, carried=np.arange(len(localizer.poses)) % 2 == 0, limited="time")
-    Checkpoint(step.mark, poses, 0, fingerprint(localizer)).save(tmp_path / "state")
+    Checkpoint(step.mark, poses, None, fingerprint(localizer)).save(tmp_path / "state")
     checkpoint = Checkpoint.load(tmp_path / "state", localizer)
     assert checkpoint is not None
     assert checkpoint.mark == step.mark
@@ -58,7 +59,7 @@ def test_without_a_file_there_is_no_checkpoint(tmp_path: Path) -> None:
 def test_a_state_of_another_map_or_configuration_is_refused(recording: Recording, tmp_path: Path) -> None:
     localizer = Localizer(sample_grid())
     step, _ = next(localize(recording, localizer))
-    Checkpoint(step.mark, localizer.poses, 0, fingerprint(localizer)).save(tmp_path / "state")
+    Checkpoint(step.mark, localizer.poses, None, fingerprint(localizer)).save(tmp_path / "state")
     grid = sample_grid()
     cells = grid.cells.copy()
     cells[0, 0] = 1 - min(cells[0, 0], 1)
@@ -72,7 +73,7 @@ def test_a_damaged_state_is_refused(share: float, recording: Recording, tmp_path
     localizer = Localizer(sample_grid())
     step, _ = next(localize(recording, localizer))
     path = tmp_path / "state"
-    Checkpoint(step.mark, localizer.poses, 0, fingerprint(localizer)).save(path)
+    Checkpoint(step.mark, localizer.poses, None, fingerprint(localizer)).save(path)
     path.write_bytes(path.read_bytes()[: int(share * path.stat().st_size)])
     with pytest.raises(RecordingError, match="damaged"):
         Checkpoint.load(path, localizer)
@@ -82,4 +83,4 @@ def test_a_state_that_cannot_be_written_is_an_error(recording: Recording, tmp_pa
     localizer = Localizer(sample_grid())
     step, _ = next(localize(recording, localizer))
     with pytest.raises(OutputError, match="cannot be written"):
-        Checkpoint(step.mark, localizer.poses, 0, "x").save(tmp_path / "nowhere" / "state")
+        Checkpoint(step.mark, localizer.poses, None, "x").save(tmp_path / "nowhere" / "state")

@@ -1,6 +1,7 @@
 import math
 from dataclasses import replace
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -8,7 +9,7 @@ from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.angle import contains_angle
 from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.lidar.config import LocalizedSize
-from ial.lidar.estimate import Hypothesis, find_hypotheses, judge
+from ial.lidar.estimate import Hypothesis, find_hypotheses, judge, radius
 from ial.lidar.pose_set import PoseSet, unite
 from ial.maps.occupancy_grid import OccupancyGrid
 from ial.pose import Pose, wrap
@@ -94,3 +95,20 @@ def test_a_full_circle_stays_one_in_a_turned_map() -> None:
     assert found[0].theta == (-PI_UPPER, PI_UPPER)
     across = find_hypotheses(PoseSet(Boxes.of([(0, 1), (0, 1), (3.0, 3.5)])), grid(Pose(theta=0.5)))
     assert wrap(across[0].theta[0]) == pytest.approx(3.5 - 2.0 * math.pi)
+
+
+def test_no_position_of_a_set_is_farther_than_the_radius() -> None:
+    """The distance in 200 bits, from the pose in the map to each corner of a box, turned and moved into the map."""
+    for seed in range(300):
+        random = np.random.default_rng(seed)
+        origin = Pose(*(random.uniform(-1.0, 1.0, 2) * 10.0 ** random.integers(0, 7)).tolist(), float(random.uniform(-math.pi, math.pi)))
+        there = grid(origin if seed % 3 else Pose(origin.x, origin.y))
+        lower = np.array([*random.uniform(0.0, 9.0, 2), 0.0])
+        upper = lower + random.choice([0.0, 1e-9, 0.5]) * random.random(3)
+        pose = there.pose_to_map(Pose(*(lower[:2] + random.choice([0.0, 1e-9, 2.0]) * random.random(2)).tolist(), 0.0))
+        with mpmath.workprec(200):
+            c, s = mpmath.cos(there.origin.theta), mpmath.sin(there.origin.theta)
+            corners = [(mpmath.mpf(x), mpmath.mpf(y)) for x in (lower[0], upper[0]) for y in (lower[1], upper[1])]
+            far = max(mpmath.hypot(origin.x + c * x - s * y - pose.x, origin.y + s * x + c * y - pose.y) for x, y in corners)
+        found = radius(PoseSet(Boxes(lower[None], upper[None])), pose, there)
+        assert far <= found <= far + 1e-13 * (2.0 * abs(origin.x) + 2.0 * abs(origin.y) + 60.0)

@@ -7,14 +7,19 @@ import pytest
 
 from ial.contractors.boxes import Boxes
 from ial.datasets.scan import LaserScan, Mounting
-from ial.lidar.beams import select_beams
+from ial.lidar.beams import scan_beams, select_beams
 from ial.lidar.bit_columns import BitColumns, read_bits
-from ial.lidar.config import Bounds, FreeSpace
+from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig, Precision
 from ial.lidar.free_space import blocked, count_blocked
+from ial.lidar.localizer import Localizer
 from ial.maps.cell_index import CellIndex
 from ial.maps.floor_plan import floor_plan
-from ial.maps.occupancy_grid import OCCUPIED
+from ial.maps.occupancy_grid import FREE, OCCUPIED
 from ial.maps.ray_casting import cast_rays
+from ial.pose import Pose
+from ial.study.good_beams import bad_beams
+from ial.study.obstacles import Obstacles
+from ial.study.used_beams import UsedBeams
 
 NO_LASER_OFFSET = (0.0, 0.0, 0.0, 0.0)
 
@@ -132,3 +137,70 @@ def test_an_endless_ray_and_a_bearing_that_may_be_anything_are_bounded() -> None
     for bearing, error, count in ((0.0, 2.7, 0), (math.pi, 0.05, 1), (math.pi, 6.0, 0)):
         beams = select_beams(LaserScan(0, np.array([50.0], np.float32), bearing, 1.0), Bounds(0.0, error, 50.0), 0, 180, FreeSpace())
         assert count_blocked(seen, blind, beams, 2, *open_side, 50.0).tolist() == [count]
+
+
+@pytest.mark.parametrize("outliers", [0, 3, 29, "auto"])
+def test_a_scan_of_beams_without_return_alone_keeps_every_consistent_pose(outliers: int | str) -> None:
+    grid = floor_plan(8.0, 6.0, 0.1, 4)
+    free_space = FreeSpace(margin_m=0.05, no_return_m=0.8)
+    config = LocalizerConfig(Bounds(0.02, 0.0, 0.0), outliers, free_space=free_space, precision=Precision(0.3, 0.2))  # type: ignore[arg-type]
+    scan = LaserScan(0, np.full(30, np.inf, dtype=np.float32), -math.pi, math.pi / 15.0, range_max=2.0)
+    estimate = Localizer(grid, config=config).locate(scan)
+    beams = scan_beams(scan, config)
+    assert (len(beams), len(beams.ends), estimate.beams) == (30, 0, 30)
+    assert estimate.status == "ambiguous"
+    poses = np.random.default_rng(0).uniform(0.0, (8.0, 6.0, 6.2), (600, 3))
+    poses = poses[grid.cells[tuple((poses[:, 1::-1] / 0.1).astype(int).T)] == FREE]
+    consistent = bad_beams(UsedBeams.of(scan, config), poses, Obstacles(grid)) <= estimate.outliers_allowed
+    contained = np.array([estimate.poses.contains(Pose(*pose)) for pose in poses.tolist()])
+    assert consistent.sum() > 100
+    assert contained[consistent].all()
+    assert outliers == 29 or (~contained).sum() > 20
+
+
+@pytest.mark.parametrize(
+    ("bearing", "range_error", "margin", "reading", "count"),
+    [
+        (0.0, 0.4, 0.02, 3.35, 0),  # a good beam: it may have met the face of the wall
+        (0.0, 0.4, 0.02, 3.6, 1),
+        (0.0, 0.1, 0.3, 3.35, 0),
+        (0.0, 0.1, 0.3, 3.9, 1),
+        (0.785, 0.1, 0.5, 5.25, 0),  # the ray meets the wall in time, and the last one beside it does not
+        (0.785, 0.1, 0.5, 6.0, 1),
+        (-0.5, 0.4, 0.5, 4.55, 0),
+        (-0.5, 0.4, 0.5, 5.2, 1),
+    ],
+)
+def test_a_ray_ends_before_the_wall_by_the_error_and_by_the_margin(
+    bearing: float, range_error: float, margin: float, reading: float, count: int
+) -> None:
+    """A wall that begins 3 m ahead and has no end: the ray beside that meets it last tells, by the definition."""
+    assert count == ((3.0 + margin * math.sin(abs(bearing))) / math.cos(bearing) <= reading - range_error - margin)
+    wall = np.zeros((240, 200), dtype=np.bool_)
+    wall[:, 100:] = True
+    scan = LaserScan(0, np.array([reading], np.float32), bearing, 0.1)
+    beams = select_beams(scan, Bounds(range_error, 0.0, 0.0), 0, 180, FreeSpace(True, margin))
+    box = Boxes.of([(2.0, 2.0), (6.0, 6.0), (0.0, 1e-9)])
+    found = count_blocked(box, np.zeros(1, np.int16), beams, 2, CellIndex(wall, 0.05), BitColumns(wall), 0.0)
+    assert found.tolist() == [count]
+
+
+@pytest.mark.parametrize("bearing", [0.0, 1.6, -2.5])
+@pytest.mark.parametrize("aside", [-0.08, 0.08])
+def test_a_ray_that_passes_a_gap_at_some_bearing_or_heading_is_not_blocked(bearing: float, aside: float) -> None:
+    """A wall 4 m away, all around, with a gap at an angle that only the error of the bearing, or the width of the box, reaches."""
+    rows, columns = np.mgrid[0:240, 0:240] - 119.5
+    turn = np.angle(np.exp(1j * (np.arctan2(rows, columns) - bearing - aside)))
+    wall = np.abs(np.hypot(rows, columns) - 80.0) <= 2.0
+    index, bits = CellIndex(wall & (np.abs(turn) > 0.03), 0.05), BitColumns(wall & (np.abs(turn) > 0.03))
+    beams = {
+        error: select_beams(LaserScan(0, np.array([5.5], np.float32), bearing, 0.1), Bounds(0.0, error, 0.0), 0, 1, FreeSpace(True, 0.01))
+        for error in (0.0, 0.04, 0.1)
+    }
+
+    def count(error: float, low: float, high: float) -> int:
+        box = Boxes.of([(6.0, 6.0), (6.0, 6.0), (low, high)])
+        return int(count_blocked(box, np.zeros(1, np.int16), beams[error], 2, index, bits, 1.0)[0])
+
+    assert count(0.0, -1e-9, 1e-9) == count(0.04, -1e-9, 1e-9) == count(0.0, -0.04, 0.04) == 1
+    assert count(0.1, -1e-9, 1e-9) == count(0.0, min(aside, 0.0), max(aside, 0.0)) == 0

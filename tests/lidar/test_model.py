@@ -1,5 +1,6 @@
 import math
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -157,6 +158,21 @@ def test_the_domain_is_closed_cells_of_the_allowed_classes(domain: str, unknown:
     assert start.contains(Pose(0.3, 2.4)) == unknown
     assert start.contains(TRUTH)
     assert not start.contains(Pose(3.05, 0.7))
+
+
+def test_boxes_are_cut_to_the_map_and_not_inside_of_its_edge() -> None:
+    rounded_down = 0
+    for resolution in (0.1, 1.0 / 3.0, 0.0333, 0.07):
+        for columns in range(3, 40):
+            cells = np.full((2, columns), FREE, dtype=np.uint8)
+            cells[0, 0] = OCCUPIED
+            model = LidarModel(OccupancyGrid(cells, resolution), replace(CONFIG, precision=Precision(2.0 * resolution, 0.5)))
+            edge = columns * Fraction(resolution)
+            cut = model._within_map(Boxes.of([(-1.0, 99.0), (-1.0, 99.0), (0.0, 1.0)]))
+            assert edge <= Fraction(float(cut.upper[0, 0])) <= edge + Fraction(1, 10**9)
+            assert cut.lower[0].tolist() == [0.0, 0.0, 0.0]
+            rounded_down += Fraction(columns * resolution) < edge
+    assert rounded_down > 10  # doubles that are nearest to the edge and inside of it
 
 
 def test_a_start_in_a_turned_map_is_given_in_the_map_frame() -> None:

@@ -1,9 +1,12 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.threads import set_threads
-from ial.lidar.beams import Beams
+from ial.lidar.beams import Beams, select_beams
+from ial.lidar.config import FreeSpace
 from ial.lidar.scan_contractor import ScanContractor
 from tests.lidar.twin import World
 
@@ -96,6 +99,49 @@ def test_kept_boxes_are_returned_as_they_are_and_the_input_is_not_modified() -> 
     kept = contractor(world, len(world.hits())).contract(boxes)
     for one, other in ((kept.lower, lower), (kept.upper, upper), (boxes.lower, lower), (boxes.upper, upper)):
         assert (one == other).all()
+
+
+def with_silent_beams(world: World, outliers: int, silent: int) -> Beams:
+    """Return the evidence of a scan to which beams without return are added, which are used beams as well."""
+    ranges = np.append(world.scan.ranges, np.full(silent, np.inf, dtype=np.float32))
+    return select_beams(replace(world.scan, ranges=ranges), world.bounds, outliers, len(ranges), FreeSpace(no_return_m=1.0))
+
+
+def test_as_many_outliers_as_hits_leave_a_box_as_it_is_however_many_beams_are_used() -> None:
+    lost, kept = [], 0
+    for seed, (world, random) in enumerate(worlds()[:200]):
+        hits, used = len(world.hits()), len(with_silent_beams(world, 0, 2))
+        boxes = Boxes.concatenate([world.box_around(random) for _ in range(10)])
+        boxes = Boxes(boxes.lower + random.uniform(-1.0, 1.0, (10, 1)), boxes.upper + 1.0)  # wherever the pose is
+        assert used >= hits + 2
+        for outliers in (hits, used - 1, used, 10**30):
+            beams = with_silent_beams(world, outliers, 2)
+            found = ScanContractor(beams, world.index(), world.bounds.map_error_m).contract(boxes)
+            if not (np.array_equal(found.lower, boxes.lower) and np.array_equal(found.upper, boxes.upper)):
+                lost.append((seed, outliers))
+            kept += 1
+    assert not lost, f"{len(lost)} of {kept} calls changed a box, such as (world, outliers) {lost[:5]}"
+
+
+def test_silent_beams_change_nothing_where_fewer_may_be_bad_than_hits() -> None:
+    narrowed = 0
+    for world, random in worlds()[:200]:
+        for outliers in range(0, len(world.hits()), 5):
+            boxes = Boxes.concatenate([world.box_around(random) for _ in range(5)])
+            plain = contractor(world, outliers).contract(boxes)
+            found = ScanContractor(with_silent_beams(world, outliers, 3), world.index(), world.bounds.map_error_m).contract(boxes)
+            assert np.array_equal(found.lower, plain.lower)
+            assert np.array_equal(found.upper, plain.upper)
+            narrowed += not np.array_equal(found.lower, boxes.lower)
+    assert narrowed > 50
+
+
+def test_a_negative_number_of_outliers_is_refused() -> None:
+    world = worlds()[0][0]
+    with pytest.raises(ValueError, match="may be bad is -1"):
+        world.beams(0).allowing(-1)
+    with pytest.raises(TypeError):
+        replace(world.beams(0), outliers=1.5)  # type: ignore[arg-type]
 
 
 def test_an_end_point_that_only_touches_a_cell_is_good() -> None:

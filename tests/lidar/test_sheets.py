@@ -137,7 +137,9 @@ def test_parts_cover_their_boxes_and_lie_in_the_cores(small_sheets: None) -> Non
     low = random.uniform([-1.0, -1.0, -3.0], [22.0, 16.0, 3.0], (500, 3))
     low[:100, :2] = np.round(low[:100, :2] / side) * side  # on the borders, exactly
     high = low + random.uniform(0.0, 9.0, (500, 3)) * random.integers(0, 2, (500, 3))
+    low[80:100, :2] = np.nextafter(low[80:100, :2], -1.0)
     high[50:80, :2] = low[50:80, :2] + side
+    high[80:90, :2] = np.nextafter(np.round(high[80:90, :2] / side) * side, 99.0)
     boxes = Boxes(low, high)
     points = low + random.random((500, 3)) * (high - low)
     points[::3] = low[::3]
@@ -167,6 +169,24 @@ def test_a_radius_is_kept_in_sheets_as_in_one_piece(small_sheets: None, monkeypa
     answers = [[each.model.in_domain(Pose(x, y)) for x, y in at.tolist()] for each in (in_sheets, whole)]
     assert answers[0] == answers[1]
     assert 0.1 < np.mean(answers[0]) < 0.9
+
+
+@pytest.mark.parametrize("radius", [0.05, 0.1, 0.15, 0.23, 0.3])
+def test_a_cell_is_left_out_only_if_an_obstacle_is_too_near_from_everywhere_in_it(radius: float) -> None:
+    cells = np.full((24, 30), FREE, dtype=np.uint8)
+    cells[np.random.default_rng(3).random(cells.shape) < 0.03] = OCCUPIED
+    parts = Sheets(OccupancyGrid(cells, 0.1), (FREE,), 1, Lattice(0.2, 0.5, 2), radius_m=radius)
+    row, column = (0.1 * each for each in np.nonzero(cells == OCCUPIED))
+    left_out = 0
+    for at in np.argwhere(cells == FREE):
+        y, x = (0.1 * (each + share.ravel()) for each, share in zip(at, np.mgrid[0:5, 0:5] / 4.0, strict=True))
+        inside = Boxes.of([(float(x[12]), float(x[12])), (float(y[12]), float(y[12]))])
+        if not parts[0, 0].domain.meet(inside)[0]:
+            dx = np.maximum(np.maximum(column - x[:, None], x[:, None] - column - 0.1), 0.0)
+            dy = np.maximum(np.maximum(row - y[:, None], y[:, None] - row - 0.1), 0.0)
+            assert np.hypot(dx, dy).min(axis=1).max() <= radius + 1e-12
+            left_out += 1
+    assert left_out > 0 or radius <= 0.1
 
 
 def test_a_robot_that_fits_nowhere_is_refused(small_sheets: None) -> None:

@@ -1,4 +1,4 @@
-"""The slow twin of the scan contractor: a random small world, and good beams by their definition, point by point."""
+"""`World`: a random small map with a robot in it, and what is certain about the beams of one scan."""
 
 import math
 from dataclasses import dataclass
@@ -8,12 +8,16 @@ import numpy as np
 from ial.contractors.boxes import Boxes, FloatArray
 from ial.datasets.scan import BeamClass, LaserScan, Mounting
 from ial.lidar.beams import Beams, select_beams
-from ial.lidar.config import Bounds
+from ial.lidar.config import Bounds, LocalizerConfig
 from ial.maps.cell_index import CellIndex
+from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.maps.ray_casting import cast_rays
 from ial.pose import Pose
+from ial.study.good_beams import good_beams
+from ial.study.obstacles import Obstacles
+from ial.study.used_beams import UsedBeams
 
-INSIDE = 1.0 - 1e-9  # a certificate keeps off each bound by this factor, which covers the rounding of the twin itself
+INSIDE = 1.0 - 1e-9  # errors keep off their bound by this factor, which covers the rounding of the world itself
 
 
 @dataclass(frozen=True)
@@ -69,20 +73,20 @@ class World:
         return np.hypot(dx, dy).min(axis=-1)
 
     def certainly_good(self) -> np.ndarray:
-        """Return which used beams are good at the pose: some reading and bearing within their errors end near enough to a cell."""
-        laser = self.pose @ self.scan.mounting.pose
-        used, steps = self.hits(), np.linspace(-INSIDE, INSIDE, 9)
-        reading = self.scan.ranges[used].astype(np.float64)[:, None, None] + self.bounds.range_error_m * steps[:, None]
-        angle = laser.theta + bearings(self.scan)[used][:, None, None] + self.bounds.bearing_error_rad * steps
-        at = self.distances(laser.x + reading * np.cos(angle), laser.y + reading * np.sin(angle))
-        return np.asarray((at <= self.bounds.map_error_m * INSIDE).any(axis=(1, 2)))
+        """Return which used beams are good at the pose."""
+        cells = np.where(self.mask, OCCUPIED, FREE).astype(np.uint8)
+        beams = UsedBeams.of(self.scan, LocalizerConfig(bounds=self.bounds, max_beams=len(self.scan)))
+        at = np.array([[self.pose.x, self.pose.y, self.pose.theta]])
+        return np.asarray(good_beams(beams, at, Obstacles(OccupancyGrid(cells, self.resolution)))[0])
 
     def certainly_bad(self, spread_m: float = 0.0, turn_rad: float = 0.0) -> np.ndarray:
         """Return which used beams are bad wherever the pose is off by at most `spread_m` along each axis and by `turn_rad`."""
         laser = self.pose @ self.scan.mounting.pose
-        used, beams = self.hits(), self.beams(0)
+        used = self.hits()
         reading, angle = self.scan.ranges[used].astype(np.float64), laser.theta + bearings(self.scan)[used]
-        room = self.bounds.map_error_m + beams.errors.sum(axis=1) + spread_m + np.hypot(*beams.ends.T) * turn_rad + 1e-6
+        farthest, arm = reading + self.bounds.range_error_m, math.hypot(self.scan.mounting.x, self.scan.mounting.y)
+        room = self.bounds.map_error_m + self.bounds.range_error_m + farthest * self.bounds.bearing_error_rad
+        room = room + spread_m + (farthest + arm) * turn_rad + 1e-5
         at = self.distances(laser.x + reading * np.cos(angle), laser.y + reading * np.sin(angle))
         return np.asarray(at > math.sqrt(2.0) * room)
 

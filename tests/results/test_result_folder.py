@@ -1,3 +1,5 @@
+import hashlib
+import json
 import os
 from pathlib import Path
 from typing import Any
@@ -6,7 +8,7 @@ import pytest
 
 from ial.errors import OutputError
 from ial.results.enclosures import EnclosuresFile
-from ial.results.result_folder import ResultFolder
+from ial.results.result_folder import ResultFolder, written_by_a_run
 from ial.results.trajectory import TrajectoryFile
 
 
@@ -66,6 +68,44 @@ def test_an_interrupted_run_leaves_an_earlier_one_alone(tmp_path: Path) -> None:
     with pytest.raises(KeyboardInterrupt):
         run()
     assert [(file.name, file.read_text()) for file in tmp_path.iterdir()] == [("summary.json", "earlier")]
+
+
+def conclude(path: Path, note: str) -> None:
+    with ResultFolder(path) as folder:
+        folder.write("a.txt", note)
+        folder.write("z.txt", note)
+        folder.conclude("record.json", {"note": note})
+
+
+def test_a_run_knows_its_files_again_until_they_are_changed(tmp_path: Path) -> None:
+    names = ["record.json", "a.txt", "z.txt"]
+    assert written_by_a_run(tmp_path, names) == set()
+    conclude(tmp_path, "first")
+    record = json.loads((tmp_path / "record.json").read_text())
+    assert record == {"note": "first", "files": {name: hashlib.sha256(b"first").hexdigest() for name in names[1:]}}
+    assert written_by_a_run(tmp_path, names) == set(names)
+    assert written_by_a_run(tmp_path, [*names, "b.txt"]) == set(), "a record of something else"
+    (tmp_path / "a.txt").write_text("Qirst")
+    assert written_by_a_run(tmp_path, names) == {"record.json", "z.txt"}
+    (tmp_path / "a.txt").unlink()
+    assert written_by_a_run(tmp_path, names) == {"record.json", "z.txt"}
+    (tmp_path / "record.json").unlink()
+    assert written_by_a_run(tmp_path, names) == set()
+
+
+def test_no_record_stands_beside_files_of_two_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    conclude(tmp_path, "first")
+    replace = Path.replace
+
+    def torn(self: Path, target: Path) -> Path:
+        if target.name == "z.txt":
+            raise OSError(28, "No space left on device")
+        return replace(self, target)
+
+    monkeypatch.setattr(Path, "replace", torn)
+    with pytest.raises(OutputError, match="No space left"):
+        conclude(tmp_path, "second")
+    assert {file.name: file.read_text() for file in tmp_path.iterdir()} == {"a.txt": "second", "z.txt": "first"}
 
 
 @pytest.mark.parametrize("when", ["add", "exit"])

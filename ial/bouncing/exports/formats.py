@@ -12,8 +12,8 @@ from ial.bouncing.exports.exported_filter import ExportedFilter
 from ial.bouncing.exports.finite_automaton import FiniteAutomaton
 from ial.bouncing.exports.jflap import jff_text
 from ial.bouncing.exports.verilog import memory_image, verilog_module
-from ial.bouncing.whole_file import write_whole
 from ial.errors import ConfigError
+from ial.whole_file import whole_files
 
 Format = Literal["c", "verilog", "dot", "jff", "csv", "npz"]
 
@@ -45,6 +45,22 @@ def format_of(path: Path) -> Format:
         ) from None
 
 
+def files_of(path: Path, form: Format) -> list[Path]:
+    """Return the files that an export consists of: the given one, and for Verilog the memory image, with the suffix ``.hex``.
+
+    Raises
+    ------
+    ConfigError
+        If the two would be the same.
+    """
+    if form != "verilog":
+        return [path]
+    image = path.with_suffix(".hex")
+    if image == path:
+        raise ConfigError(f"{path}: the memory image gets the suffix .hex; give the module another one, such as .v")
+    return [path, image]
+
+
 def export(
     exported: ExportedFilter, path: str | Path, form: Format | None = None, prefix: str = "bounce", force: bool = False
 ) -> list[Path]:
@@ -55,7 +71,7 @@ def export(
     exported
         The filter.
     path
-        The file to write. Verilog has a second one beside it, the memory image, with the suffix ``.hex``.
+        The file to write; see `files_of` for those beside it.
     form
         The format; that of the suffix if it is None.
     prefix
@@ -77,24 +93,22 @@ def export(
     """
     path = Path(path)
     form = format_of(path) if form is None else form
-    files: dict[Path, bytes] = {}
+    files = files_of(path, form)
     if form == "c":
-        files[path] = c_header(exported, prefix).encode()
+        contents = [c_header(exported, prefix).encode()]
     elif form == "verilog":
-        image = path.with_suffix(".hex")
-        if image == path:
-            raise ConfigError(f"{path}: the memory image gets the suffix .hex; give the module another one, such as .v")
-        files[path] = verilog_module(exported, image.name, prefix).encode()
-        files[image] = memory_image(exported).encode()
+        contents = [verilog_module(exported, files[1].name, prefix).encode(), memory_image(exported).encode()]
     elif form == "dot":
-        files[path] = dot_text(exported, force).encode()
+        contents = [dot_text(exported, force).encode()]
     elif form == "jff":
-        files[path] = jff_text(FiniteAutomaton.of_table(exported.table)).encode()
+        contents = [jff_text(FiniteAutomaton.of_table(exported.table)).encode()]
     elif form == "csv":
-        files[path] = csv_text(exported.table).encode()
+        contents = [csv_text(exported.table).encode()]
     elif form == "npz":
-        files[path] = plain_archive(exported)
+        contents = [plain_archive(exported)]
     else:
         raise ConfigError(f"the format {form!r} is unknown; use one of {', '.join(get_args(Format))}")
-    write_whole(files, "the export")
-    return list(files)
+    with whole_files(*files, what="the export") as lent:
+        for part, content in zip(lent, contents, strict=True):
+            part.write_bytes(content)
+    return files

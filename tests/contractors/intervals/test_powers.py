@@ -59,6 +59,20 @@ def test_powers_enclose_and_are_nearly_tight() -> None:
         assert beyond.max() <= 2
 
 
+@pytest.mark.parametrize("exponent", [1, 2, 3, 5, 7, 30, 101, 1000, 2**20 + 1, -1, -3, -64, -999])
+def test_powers_as_two_doubles_have_the_error_they_state(exponent: int) -> None:
+    """The bound matters only where a power lies within 2^-100 of a double, which no test would find; so the number itself is compared."""
+    worst = 0.0
+    for x in np.random.default_rng(10).uniform(0.5, 2.0, 60).tolist():
+        high, low, k, error = powers._power(x, exponent)
+        with mpmath.workprec(400):
+            exact = mpmath.mpf(x) ** exponent * mpmath.mpf(2) ** int(-k)
+            wrong = abs((mpmath.mpf(high) + low) / exact - 1)
+        assert wrong <= error
+        worst = max(worst, float(wrong / error) if error else 0.0)
+    assert worst > 2e-3 or abs(exponent) <= 2
+
+
 @pytest.mark.parametrize(("operation", "kernel", "at_least"), [("pow", powers.pow, 1300), ("pown", powers.pown, 150)])
 def test_itf1788_vectors_are_contained(operation: str, kernel: Any, at_least: int, itf1788_folder: Path) -> None:
     def called(*inputs: float) -> itf1788.Bounds:

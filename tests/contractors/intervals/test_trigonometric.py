@@ -168,3 +168,17 @@ def test_lengths_that_are_doubles_are_exact() -> None:
 def test_itf1788_vectors_are_contained(kernel: Any, itf1788_folder: Path) -> None:
     assert len(list(itf1788.cases(itf1788_folder, kernel.__name__))) >= 10
     assert not itf1788.missed(itf1788_folder, kernel.__name__, kernel, tight=False)
+
+
+@pytest.mark.parametrize(("wave", "phase"), [(trigonometric.sin, 1), (trigonometric.cos, 0)])
+def test_an_interval_around_an_extremum_reaches_it_however_near_its_bounds_are(wave: Any, phase: int) -> None:
+    """The bounds of the extremum itself are doubles beside it; then they move away from it, one after the other."""
+    for turns in (*range(-9, 10), 1001, -1000, 31_800, -31_801):
+        with mpmath.workdps(40):
+            at = (turns + mpmath.mpf(phase) / 2) * mpmath.pi
+            below, above = float(at), float(at)
+            below, above = (math.nextafter(below, -math.inf), above) if below > at else (below, math.nextafter(above, math.inf))
+        for before in (0.0, *(2.0**-k for k in range(5, 40))):
+            for behind in (0.0, 1e-7, before):
+                low, high = wave(below - before, above + behind)
+                assert low == -1.0 if turns % 2 else high == 1.0

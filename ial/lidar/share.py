@@ -1,0 +1,50 @@
+"""`Share`: so many of some beams, as a whole number of them or as a part of all."""
+
+import math
+from decimal import Decimal
+from fractions import Fraction
+from numbers import Integral
+
+import numpy as np
+
+from ial.errors import ConfigError
+
+Share = int | float | Fraction
+
+
+def share_of(value: object) -> Share | None:
+    """Return a share in the plain types of Python; None for what is neither a whole number of beams nor a part from 0 to 1.
+
+    Parameters
+    ----------
+    value
+        An integer of Python or NumPy; or a part, as a float of either, a `Decimal` or a `Fraction`. A float means the decimal that it is
+        printed as, so that ``np.float32(0.35)`` is 0.35.
+    """
+    if isinstance(value, bool | np.bool_):
+        return None
+    if isinstance(value, Integral):
+        return int(value) if int(value) >= 0 else None
+    if isinstance(value, Decimal | Fraction):
+        return Fraction(value) if 0 <= value <= 1 else None
+    if isinstance(value, float | np.floating):
+        part = float(str(value))
+        return part if 0.0 <= part <= 1.0 else None
+    return None
+
+
+def number_of(share: Share, beams: int) -> int:
+    """Return how many of some beams a share is: a whole number as it is, the whole part of the product for a part.
+
+    The product is that of the decimal that was written and not of the double next to it: 0.35 of 180 beams are 63, while
+    ``0.35 * 180`` is 62.99999999999999.
+
+    Raises
+    ------
+    ConfigError
+        If it is no share; see `share_of`.
+    """
+    exact = share_of(share)
+    if exact is None:
+        raise ConfigError(f"{share!r} is no share of the beams; give a whole number of them, or a part from 0.0 to 1.0")
+    return exact if isinstance(exact, int) else math.floor(Fraction(str(exact)) * beams)

@@ -1,0 +1,78 @@
+"""Files that have their names only when they are complete."""
+
+import errno
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from ial.errors import OutputError
+
+
+@contextmanager
+def whole_files(*paths: str | Path, what: str = "the file") -> Iterator[tuple[Path, ...]]:
+    """Lend a new, empty file beside each of the paths; they get those names together when the block ends without an error.
+
+    Until then whatever has one of those names is left alone. If the block ends with an error, that stays, and the lent files are removed.
+    Their own names are made up, so they replace nothing either.
+
+    Parameters
+    ----------
+    paths
+        The names.
+    what
+        What the files hold, for the message of an error.
+
+    Raises
+    ------
+    OutputError
+        If one cannot be written.
+    """
+    wanted = [Path(path) for path in paths]
+    path = wanted[0]
+    lent: list[Path] = []
+    try:
+        for path in wanted:
+            if path.is_dir():  # known before any other is renamed
+                raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+            part = path.with_name(f".{path.name}-{os.urandom(4).hex()}.part")
+            part.open("xb").close()
+            lent.append(part)
+        yield tuple(lent)
+        for path, part in zip(wanted, lent, strict=True):
+            part.replace(path)
+    except OSError as error:
+        raise OutputError(
+            f"{path}: {what} cannot be written ({error.strerror or error}); choose another folder, or make room in this one"
+        ) from None
+    finally:
+        for part in lent:
+            with suppress(OSError):
+                part.unlink(missing_ok=True)
+
+
+def rewrite(path: Path, content: bytes | memoryview, what: str) -> None:
+    """Replace a file that is replaced often; a process that is killed meanwhile leaves the one before.
+
+    It may leave half a file, too. So that these do not gather, they have one name (`unfinished`), which the next call takes again.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be written.
+    """
+    part = unfinished(path)
+    try:
+        part.unlink(missing_ok=True)  # were it a link, the file behind it would be written to
+        with part.open("xb") as file:
+            file.write(content)
+        part.replace(path)
+    except OSError as error:
+        with suppress(OSError):
+            part.unlink(missing_ok=True)
+        raise OutputError(f"{path}: {what} cannot be written ({error.strerror or error}); is the disk full?") from None
+
+
+def unfinished(path: Path) -> Path:
+    """Return the name under which `rewrite` writes."""
+    return path.with_name(f".{path.name}.part")
