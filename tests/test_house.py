@@ -31,7 +31,6 @@ SIBLINGS = {  # the only imports within a floor
 NUMBERED = {  # files that hold numbers as small as a margin, and are none that widens a bound
     "contractors/rounding.py": "asks the processor how it rounds",
     "contractors/solving/zeros.py": "the width of a first guess, which is then proved or not",
-    "datasets/odometry_buffer.py": "a bound of its own interpolation",
     "datasets/simulator.py": "how far simulated errors keep off their bounds",
     "datasets/survey.py": "seconds in a nanosecond",
     "maps/occupancy_grid.py": "the smallest width of a cell that is believed",
