@@ -1,12 +1,12 @@
 """Edits of one line each that break a bound, and whether a test sees them.
 
-    python bench/edits.py [--only TEXT ...] [--report FILE]
+    python bench/edits.py [--only TEXT ...] [--open] [--report FILE]
 
 A test that no wrong line can make fail says nothing. `edits.toml` lists lines of the code that carry a bound, what to write in their
 place, and the tests that have to see it. Each edit is made in a copy of the checkout, and these tests run on it; the report, `edits.md`,
 says which test killed the edit, or that it SURVIVED. An edit whose old text does not occur exactly once any more is named, and nothing is
-run before all apply: the list is mended together with the code. `--only` tries those whose file or text holds one of some texts; the
-report keeps what it says about the others.
+run before all apply: the list is mended together with the code. `--only` tries those whose file or text holds one of some texts, `--open`
+those that the report names no test for; the report keeps what it says about the others.
 
 An edit takes some seconds, most of them to compile its kernels: an edit of a file with machine code in it has a cache of its own, which is
 thrown away, and the others share that of the code as it is.
@@ -88,16 +88,20 @@ def outcome(tree: Path, cache: Path, tests: tuple[str, ...]) -> str:
     if done.returncode != 1 or not failed or "::" not in failed[0]:
         return f"**NO TEST RAN**: pytest ended with {done.returncode}, {' '.join(failed)}"
     name, _, test = failed[0].partition("::")
-    return f"{Path(name).name}: {test.partition('[')[0]}"
+    return f"{Path(name).name}: _{test.partition('[')[0]}_"
 
 
 def main() -> int:
     """Try the edits; return 1 if one survived, 2 if one does not apply."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", nargs="+", default=[""], metavar="TEXT", help="try only edits whose file or text holds one of these")
+    parser.add_argument("--open", action="store_true", help="try only edits for which the report names no test")
     parser.add_argument("--report", type=Path, default=ROOT / "bench" / "edits.md", help="the report, bench/edits.md by default")
     options = parser.parse_args()
-    edits = [edit for edit in Edit.listed() if any(text in edit.path or text in edit.old for text in options.only)]
+    listed = Edit.listed()
+    edits = [edit for edit in listed if any(text in edit.path or text in edit.old for text in options.only)]
+    if options.open:
+        edits = [edit for edit in edits if not known(options.report).get(edit.cells, "").endswith("_ |")]
     with tempfile.TemporaryDirectory() as folder:
         tree, cache = Path(folder) / "ial", Path(folder) / "cache"
         copied(tree)
@@ -121,21 +125,26 @@ def main() -> int:
                 found.append(outcome(tree, Path(own) if compiled else cache, edit.tests))
             file.write_text(text, encoding="utf-8")
             print(f"{number}/{len(edits)} {edit.cells} {found[-1]}", flush=True)
-            note(options.report, edit, found[-1])
+            note(options.report, listed, edit, found[-1])
     return int(any(each.startswith("**") for each in found))
 
 
-def note(report: Path, edit: Edit, outcome: str) -> None:
-    """Write into a report what became of an edit; what it says about edits that are listed no more is left out."""
+def known(report: Path) -> dict[str, str]:
+    """Return the rows of a report by their cells, those of edits among others."""
     rows = report.read_text(encoding="utf-8").splitlines() if report.exists() else []
-    known = {row.rpartition("|")[0].rpartition("|")[0] + "|": row for row in rows} | {edit.cells: f"{edit.cells} {outcome} |"}
-    listed = [known.get(each.cells, f"{each.cells} not tried |") for each in Edit.listed()]
-    tried = sum(not row.endswith(" not tried |") for row in listed)
+    return {row.rpartition("|")[0].rpartition("|")[0] + "|": row for row in rows}
+
+
+def note(report: Path, edits: list[Edit], edit: Edit, outcome: str) -> None:
+    """Write into a report what became of an edit; what it says about edits that are listed no more is left out."""
+    rows = known(report) | {edit.cells: f"{edit.cells} {outcome} |"}
+    found = [rows.get(each.cells, f"{each.cells} not tried |") for each in edits]
+    tried = sum(not row.endswith(" not tried |") for row in found)
     report.write_text(
         "# Edits that break a bound, and the tests that see them\n\n"
         "Made by `bench/edits.py` from `bench/edits.toml`. Each row is an edit of one line, made in a copy of the checkout.\n\n"
-        f"{len(listed)} edits, {tried} tried, {sum('| **' in row for row in listed)} survived.\n\n"
-        "| file | old | new | killed by |\n| --- | --- | --- | --- |\n" + "\n".join(listed) + "\n",
+        f"{len(found)} edits, {tried} tried, {sum('| **' in row for row in found)} survived.\n\n"
+        "| file | old | new | killed by |\n| --- | --- | --- | --- |\n" + "\n".join(found) + "\n",
         encoding="utf-8",
     )
 
