@@ -1,4 +1,4 @@
-"""A million poses that must not be lost: random drives in all that a robot may undergo, and an oracle that shares no code with the search."""
+"""A million poses that must not be lost: random drives through all that a robot may undergo, and an oracle that is not the search."""
 
 import sys
 import time

@@ -1,15 +1,17 @@
 """The fuzzer: random drives are localized as any user would do it, and poses are looked for that an answer has lost."""
 
+import math
 import time
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from fractions import Fraction
 
 import numpy as np
 
 from ial.contractors.boxes import Boxes
 from ial.errors import ConfigError, MapError
-from ial.lidar import Atlas, Localizer, ScanContractor
+from ial.lidar import Atlas, Estimate, Localizer, ScanContractor
 from ial.lidar.beams import scan_beams
 from ial.maps.cell_index import CellIndex
 from ial.maps.occupancy_grid import OCCUPIED
@@ -92,10 +94,19 @@ def _answers(drive: Drive) -> Iterator[tuple[Moment, dict[str, Part]]]:
     for moment in drive.moments:
         index = BoxIndex(localizer.poses.boxes)
         found = localizer.locate(moment.scan) if drive.mode == "static" else localizer.update(moment.motion, moment.scan)
-        if found.beams != len(UsedBeams.of(moment.scan, drive.config)):
-            raise AssertionError(f"{drive.mode} {drive.seed}: another number of beams is used than docs/guarantee.md says")
+        _check_numbers(drive, moment, found)
         circle = None if found.pose is None or found.radius_m is None else (found.pose, found.radius_m)
         yield moment, {place: Part(index, found.poses, found.hypotheses, found.status, found.outliers_allowed, circle)}
+
+
+def _check_numbers(drive: Drive, moment: Moment, found: Estimate) -> None:
+    """Raise unless as many beams are used, and as many of them may be bad, as docs/guarantee.md says."""
+    used, share = len(UsedBeams.of(moment.scan, drive.config)), drive.config.outliers
+    allowed = found.outliers_allowed if share == "auto" else share if isinstance(share, int) else math.floor(Fraction(str(share)) * used)
+    if (found.beams, found.outliers_allowed) != (used, allowed):
+        raise AssertionError(
+            f"{drive.mode} {drive.seed}: {found.outliers_allowed} of {found.beams} beams may be bad, not {allowed} of {used}"
+        )
 
 
 def _contract(drive: Drive, oracle: Oracle, tally: Tally, effort: int) -> None:
