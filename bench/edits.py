@@ -1,14 +1,15 @@
 """Edits of one line each that break a bound, and whether a test sees them.
 
-    python bench/edits.py [--only TEXT ...] [--report FILE]
+    python bench/edits.py [--only TEXT ...] [--open] [--report FILE]
 
 A test that no wrong line can make fail says nothing. `edits.toml` lists lines of the code that carry a bound, what to write in their
 place, and the tests that have to see it. Each edit is made in a copy of the checkout, and these tests run on it; the report, `edits.md`,
 says which test killed the edit, or that it SURVIVED. An edit whose old text does not occur exactly once any more is named, and nothing is
-run before all apply: the list is mended together with the code. `--only` tries those whose file or text holds one of some texts, and
-writes no report unless asked.
+run before all apply: the list is mended together with the code. `--only` tries those whose file or text holds one of some texts, `--open`
+those that the report names no test for; the report keeps what it says about the others.
 
-An edit takes some seconds, most of them to compile its kernels: the cache of each is its own, and is thrown away.
+An edit takes some seconds, most of them to compile its kernels: an edit of a file with machine code in it has a cache of its own, which is
+thrown away, and the others share that of the code as it is.
 """
 
 import argparse
@@ -23,6 +24,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 _LONGEST_S = 900
+_COMPILED = ("ial.contractors.kernels import", "import numba", "from numba", "llvmlite")  # what files with machine code in them import
 _PROBE = """
 import ial, ial.contractors.rounding, ial.datasets.motion, ial.maps.cell_index, pathlib
 for module in (ial, ial.contractors.rounding, ial.datasets.motion, ial.maps.cell_index):
@@ -45,15 +47,15 @@ class Edit:
         files = tomllib.loads((ROOT / "bench" / "edits.toml").read_text(encoding="utf-8"))["file"]
         return [cls(file["path"], old, new, tuple(own[0] if own else file["tests"])) for file in files for old, new, *own in file["edits"]]
 
-    def place(self, tree: Path) -> int:
-        """Return the line at which the old text stands, 0 if it does not stand there exactly once."""
-        text = (tree / self.path).read_text(encoding="utf-8")
-        return text[: text.index(self.old)].count("\n") + 1 if text.count(self.old) == 1 else 0
+    def applies(self, tree: Path) -> bool:
+        """Return whether the old text occurs exactly once."""
+        return (tree / self.path).read_text(encoding="utf-8").count(self.old) == 1
 
-    def row(self, line: int, outcome: str) -> str:
-        """Return a row of the report."""
+    @property
+    def cells(self) -> str:
+        """How the report tells the edit from others: its file, the old text and the new one."""
         old, new = (" ".join(text.split()).replace("|", "\\|") for text in (self.old, self.new))
-        return f"| {self.path}:{line} | `{old}` | {f'`{new}`' if new else '(nothing)'} | {outcome} |"
+        return f"| {self.path} | `{old}` | {f'`{new}`' if new else '(nothing)'} |"
 
 
 def copied(tree: Path) -> None:
@@ -65,20 +67,19 @@ def copied(tree: Path) -> None:
             shutil.copy2(ROOT / name, tree / name, follow_symlinks=False)
 
 
-def run(tree: Path, *command: str) -> subprocess.CompletedProcess[str]:
-    """Run Python on the copy, with an empty cache of kernels."""
-    with tempfile.TemporaryDirectory() as cache:
-        # Bytecode is told by the time and the size of its source, and an edit may leave both as they are.
-        ours = {"PYTHONPATH": str(tree), "IAL_CACHE_DIR": cache, "PYTHONDONTWRITEBYTECODE": "1"}
-        return subprocess.run(
-            [sys.executable, *command], cwd=tree, env=os.environ | ours, capture_output=True, text=True, timeout=_LONGEST_S, check=False
-        )
+def run(tree: Path, cache: Path, *command: str) -> subprocess.CompletedProcess[str]:
+    """Run Python on the copy, with a folder for its kernels."""
+    # Bytecode is told by the time and the size of its source, and an edit may leave both as they are.
+    ours = {"PYTHONPATH": str(tree), "IAL_CACHE_DIR": str(cache), "PYTHONDONTWRITEBYTECODE": "1"}
+    return subprocess.run(
+        [sys.executable, *command], cwd=tree, env=os.environ | ours, capture_output=True, text=True, timeout=_LONGEST_S, check=False
+    )
 
 
-def outcome(tree: Path, tests: tuple[str, ...]) -> str:
+def outcome(tree: Path, cache: Path, tests: tuple[str, ...]) -> str:
     """Return which test fails, or that none does."""
     try:
-        done = run(tree, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *tests)
+        done = run(tree, cache, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *tests)
     except subprocess.TimeoutExpired:
         return "hangs"
     if done.returncode == 0:
@@ -87,50 +88,64 @@ def outcome(tree: Path, tests: tuple[str, ...]) -> str:
     if done.returncode != 1 or not failed or "::" not in failed[0]:
         return f"**NO TEST RAN**: pytest ended with {done.returncode}, {' '.join(failed)}"
     name, _, test = failed[0].partition("::")
-    return f"{Path(name).name}: {test.partition('[')[0]}"
+    return f"{Path(name).name}: _{test.partition('[')[0]}_"
 
 
 def main() -> int:
     """Try the edits; return 1 if one survived, 2 if one does not apply."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--only", nargs="+", default=[""], metavar="TEXT", help="try only edits whose file or text holds one of these")
-    parser.add_argument("--report", type=Path, help="where to write the report; bench/edits.md if all edits are tried")
+    parser.add_argument("--open", action="store_true", help="try only edits for which the report names no test")
+    parser.add_argument("--report", type=Path, default=ROOT / "bench" / "edits.md", help="the report, bench/edits.md by default")
     options = parser.parse_args()
-    edits = [edit for edit in Edit.listed() if any(text in edit.path or text in edit.old for text in options.only)]
-    report = options.report or (None if any(options.only) else ROOT / "bench" / "edits.md")
+    listed = Edit.listed()
+    edits = [edit for edit in listed if any(text in edit.path or text in edit.old for text in options.only)]
+    if options.open:
+        edits = [edit for edit in edits if not known(options.report).get(edit.cells, "").endswith("_ |")]
     with tempfile.TemporaryDirectory() as folder:
-        tree = Path(folder) / "ial"
+        tree, cache = Path(folder) / "ial", Path(folder) / "cache"
         copied(tree)
-        stale = [edit for edit in edits if not edit.place(tree)]
+        stale = [edit for edit in edits if not edit.applies(tree)]
         for edit in stale:
             print(f"DOES NOT APPLY: {edit.path}: {edit.old}")
         if stale:
             return 2
-        run(tree, "-c", _PROBE).check_returncode()
+        run(tree, cache, "-c", _PROBE).check_returncode()
         tests = tuple(dict.fromkeys(test for edit in edits for test in edit.tests))
-        if (unedited := outcome(tree, tests)) != "**SURVIVED**":
+        if (unedited := outcome(tree, cache, tests)) != "**SURVIVED**":
             print(f"tests fail without any edit: {unedited}")
             return 2
-        rows = []
+        found = []
         for number, edit in enumerate(edits, 1):
             file = tree / edit.path
-            text, line = file.read_text(encoding="utf-8"), edit.place(tree)
+            text = file.read_text(encoding="utf-8")
             file.write_text(text.replace(edit.old, edit.new), encoding="utf-8")
-            rows.append(edit.row(line, outcome(tree, edit.tests)))
+            with tempfile.TemporaryDirectory() as own:
+                compiled = any(mark in text for mark in _COMPILED)
+                found.append(outcome(tree, Path(own) if compiled else cache, edit.tests))
             file.write_text(text, encoding="utf-8")
-            print(f"{number}/{len(edits)} {rows[-1]}", flush=True)
-            if report:
-                report.write_text(_written(rows, len(edits)), encoding="utf-8")
-    return int(any("**" in row for row in rows))
+            print(f"{number}/{len(edits)} {edit.cells} {found[-1]}", flush=True)
+            note(options.report, listed, edit, found[-1])
+    return int(any(each.startswith("**") for each in found))
 
 
-def _written(rows: list[str], wanted: int) -> str:
-    survivors = sum("**" in row for row in rows)
-    return (
+def known(report: Path) -> dict[str, str]:
+    """Return the rows of a report by their cells, those of edits among others."""
+    rows = report.read_text(encoding="utf-8").splitlines() if report.exists() else []
+    return {row.rpartition("|")[0].rpartition("|")[0] + "|": row for row in rows}
+
+
+def note(report: Path, edits: list[Edit], edit: Edit, outcome: str) -> None:
+    """Write into a report what became of an edit; what it says about edits that are listed no more is left out."""
+    rows = known(report) | {edit.cells: f"{edit.cells} {outcome} |"}
+    found = [rows.get(each.cells, f"{each.cells} not tried |") for each in edits]
+    tried = sum(not row.endswith(" not tried |") for row in found)
+    report.write_text(
         "# Edits that break a bound, and the tests that see them\n\n"
         "Made by `bench/edits.py` from `bench/edits.toml`. Each row is an edit of one line, made in a copy of the checkout.\n\n"
-        f"{len(rows)} of {wanted} edits tried, {survivors} survived.\n\n"
-        "| where | old | new | killed by |\n| --- | --- | --- | --- |\n" + "\n".join(rows) + "\n"
+        f"{len(found)} edits, {tried} tried, {sum('| **' in row for row in found)} survived.\n\n"
+        "| file | old | new | killed by |\n| --- | --- | --- | --- |\n" + "\n".join(found) + "\n",
+        encoding="utf-8",
     )
 
 

@@ -29,7 +29,7 @@ def turn_point(x, y, s0, c0, s1, c1):  # type: ignore[no-untyped-def]
     Parameters
     ----------
     x, y
-        The point.
+        The point; coordinates are 0 or of a size of at least 1e-140, so that no square underflows.
     s0, c0, s1, c1
         Sine and cosine of the lower and of the upper angle, each wrong by less than 2^-53 (`trigonometric.sincos`).
 

@@ -60,8 +60,9 @@ class Newton(Combinator):
     def step(self, boxes: Boxes) -> tuple[Boxes, npt.NDArray[np.bool_]]:
         """Return the narrowed boxes, and which of the given boxes are proved to hold exactly one zero, shape (n,).
 
-        Proved: f is defined and continuous on the bounded box, and Krawczyk's operator maps it into its interior. If the formulas hold
-        intervals as constants, this is so for every choice of numbers from them.
+        Proved: f is defined and continuous on the box, and Krawczyk's operator maps it into its interior; an unbounded box into a bounded
+        part of it, of which the same is then true. If the formulas hold intervals as constants, this is so for every choice of numbers
+        from them.
 
         Raises
         ------
@@ -164,10 +165,9 @@ def _solve(start, stop, rows, middle, fl, fu, jl, ju, lower, upper, proved):  # 
     for i in range(start, stop):
         row, m = rows[i], middle[i]
         low, high = lower[row], upper[row]
-        known, bounded = True, True
+        known = True
         for k in range(n):
             known &= fl[i, k] <= fu[i, k]
-            bounded &= (low[k] > -np.inf) & (high[k] < np.inf)
             dl[k], du[k] = sub(low[k], high[k], m[k], m[k])
             for j in range(n):
                 known &= jl[i, k, j] <= ju[i, k, j]
@@ -176,7 +176,7 @@ def _solve(start, stop, rows, middle, fl, fu, jl, ju, lower, upper, proved):  # 
             continue  # f or a derivative has no value
         _invert(centre, inverse)
         _precondition(inverse, fl[i], fu[i], jl[i], ju[i], bl, bu, al, au)
-        inside, empty = bounded, False
+        inside, empty = True, False
         for k in range(n):
             # Krawczyk: x = m − b + (1 − A)·d, on all sides of the box as it was given.
             sl, su = _sum_beside(k, bl, bu, al, au, dl, du)

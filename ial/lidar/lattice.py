@@ -149,12 +149,10 @@ def _cell_ranges(lower, upper, step, edges, ranges):  # type: ignore[no-untyped-
     width = 2.0 * math.pi / layers
     for row in range(len(lower)):
         for axis in range(2):
+            # Multiples k·step are exact. A double beside one differs from it by 2⁻⁵³ of it or more, and a number that is rounded to k
+            # differs from k by less: no quotient is rounded to k from below or from above, and both whole numbers are right.
             first = int(math.floor(lower[row, axis] / step))
             last = max(first, int(math.ceil(upper[row, axis] / step)) - 1)
-            while first * step > lower[row, axis]:
-                first -= 1
-            while (last + 1) * step < upper[row, axis]:
-                last += 1
             ranges[row, 2 * axis] = first
             ranges[row, 2 * axis + 1] = last
         start, stop = wrap_angle(lower[row, 2], upper[row, 2])

@@ -1,11 +1,12 @@
 from fractions import Fraction
 
+import mpmath
 import numpy as np
 import pytest
 
 from ial.bouncing.motion_bounds import MotionBounds
 from ial.bouncing.ray_grid import coarsened
-from ial.bouncing.ray_model import RayModel
+from ial.bouncing.ray_model import RayModel, radians
 from ial.bouncing.ray_set import RaySet
 from ial.bouncing.real_robot import RealRobot
 from ial.bouncing.walls import Walls
@@ -13,8 +14,9 @@ from ial.errors import ConfigError, MapError
 from ial.maps.environment import Environment
 from ial.maps.polygon import Polygon
 from ial.membership import Rejection, SetMembershipFilter
+from tests.bouncing.rays import DIGITS, ExactWalls, exact
 from tests.bouncing.test_real_robot import PILLAR, ROOM, ring
-from tests.bouncing.truth import extent, follow, holds_leg, holds_place
+from tests.bouncing.truth import extent, follow, holds_leg, holds_place, random_environment
 
 L_ROOM = Environment((Polygon(ring((0, 0), (9, 0), (9, 4), (5, 4), (5, 7), (0, 7))),))
 
@@ -102,6 +104,37 @@ def test_the_way_of_a_leg_lies_between_exact_bounds() -> None:
             ((least,), (most,)) = model.ways(states)
             assert Fraction(least) <= max(count - missed, 0) * step * (1 - error) <= Fraction(least) + Fraction(1, 10**9)
             assert Fraction(most) - Fraction(1, 10**9) <= (count + missed + 1) * step * (1 + error) <= Fraction(most)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_robot_that_drove_k_steps_exactly_is_in_its_place(seed: int) -> None:
+    """Places are compared in 60 digits, in the frame of the environment, which lies far away."""
+    random = np.random.default_rng(seed)
+    x0, y0, step = Fraction(10**5, 3), Fraction(-(10**4), 7), Fraction(1, 7)
+    rings = [[tuple((x + x0, y + y0) for x, y in ring) for ring in polygon.rings] for polygon in random_environment(seed).polygons]
+    there = Environment(tuple(Polygon.trusted(outer, tuple(holes)) for outer, *holes in rings))
+    model, exactly = RayModel(there, Fraction(90), step, most_pieces=30_000), ExactWalls.of(there)
+    for _ in range(60):
+        wall, part, heading = int(random.integers(len(model.walls))), float(random.random()), float(random.uniform(-7.0, 7.0))
+        count, at = int(random.integers(0, 30)), np.array([[part, heading]])
+        one = RaySet(np.array([wall], np.int32), at, at, np.array([count], np.int32), np.zeros(1, np.bool_), np.array([np.inf]))
+        box = model.places(one)
+        with mpmath.workdps(DIGITS):
+            x, y = exactly.point(wall, part)
+            origin, way = [exact(each) for each in there.bounds[:2]], count * exact(step)
+            place = (origin[0] + x + way * mpmath.cos(exact(heading)), origin[1] + y + way * mpmath.sin(exact(heading)))
+            for side in (0, 1):
+                assert exact(float(box.lower[0, side])) <= place[side] <= exact(float(box.upper[0, side]))
+                assert box.upper[0, side] - box.lower[0, side] < 1e-9
+
+
+def test_degrees_are_enclosed_in_radians() -> None:
+    for low in (Fraction(-1000, 7), Fraction(0), Fraction(1, 3), Fraction(90), Fraction(359)):
+        for wide in (Fraction(0), Fraction(1, 9), Fraction(180)):
+            first, last = radians(low, low + wide)
+            with mpmath.workdps(DIGITS):
+                assert exact(first) <= exact(low) * mpmath.pi / 180 <= exact(first) + mpmath.mpf(10) ** -14
+                assert exact(last) - mpmath.mpf(10) ** -14 <= exact(low + wide) * mpmath.pi / 180 <= exact(last)
 
 
 def test_more_steps_than_fit_are_a_rejection() -> None:

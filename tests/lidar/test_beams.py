@@ -10,7 +10,7 @@ from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.scan import LaserScan, Mounting
 from ial.lidar.beams import Beams, scan_beams, select_beams
-from ial.lidar.config import Bounds, LocalizerConfig
+from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
 from ial.pose import Pose
 
 mpmath.mp.prec = 200
@@ -40,13 +40,15 @@ def offsets(beams: Beams, i: int, x: mpmath.mpf, y: mpmath.mpf) -> tuple[mpmath.
 def test_every_true_end_point_lies_in_the_error_region() -> None:
     for seed in range(120):
         random = np.random.default_rng(seed)
-        mounting = Mounting(*random.uniform(-1.0, 1.0, 2).tolist(), float(random.uniform(-4.0, 4.0)), bool(random.integers(2)))
+        arm = (10.0 ** random.choice([0, 0, 6]) * random.uniform(-1.0, 1.0, 2)).tolist()
+        mounting = Mounting(*arm, float(random.uniform(-4.0, 4.0)), bool(random.integers(2)))
         bounds = Bounds(float(random.choice([0.0, 0.03, 0.5])), float(random.choice([0.0, 1e-3, 0.1])))
         increment = float(random.choice([-0.02, 1e-3, 0.3]))
         size = int(random.integers(1, 400))
         recorded = LaserScan(0, random.uniform(0.01, 80.0, size), float(random.uniform(-3.0, 3.0)), increment, mounting=mounting)
-        beams = select_beams(recorded, bounds, 0, size)
+        beams = select_beams(recorded, bounds, 0, size, FreeSpace(max_rays=size))
         assert len(beams) == size
+        assert beams.rays is not None
         starts, increments = float32_neighbourhood(recorded.angle_min), float32_neighbourhood(recorded.angle_increment)
         for i in random.integers(0, size, 5).tolist():
             s = random.choice([0.0, 1.0, 0.3], 5).tolist()
@@ -58,6 +60,7 @@ def test_every_true_end_point_lies_in_the_error_region() -> None:
             along, across = offsets(beams, i, x, y)
             assert along <= float(beams.errors[i, 0]), (seed, i)
             assert across <= float(beams.errors[i, 1]), (seed, i)
+            assert abs(angle - mpmath.mpf(float(beams.rays.angles[i]))) <= float(beams.rays.turns[i]), (seed, i)
 
 
 def test_the_error_region_is_hardly_larger_than_the_bounds() -> None:

@@ -149,17 +149,13 @@ def test_a_scan_of_beams_without_return_alone_keeps_every_consistent_pose(outlie
     beams = scan_beams(scan, config)
     assert (len(beams), len(beams.ends), estimate.beams) == (30, 0, 30)
     assert estimate.status == "ambiguous"
-    used, obstacles = UsedBeams.of(scan, config), Obstacles(grid)
-    random, kept, excluded = np.random.default_rng(0), 0, 0
-    while kept < 200:
-        pose = Pose(*random.uniform(0.0, (8.0, 6.0, 6.2)).tolist())
-        if grid.cells[int(pose.y / 0.1), int(pose.x / 0.1)] == FREE:
-            (bad,) = bad_beams(used, np.array([[pose.x, pose.y, pose.theta]]), obstacles)
-            consistent = bad <= estimate.outliers_allowed
-            kept += consistent
-            excluded += not estimate.poses.contains(pose)
-            assert estimate.poses.contains(pose) or not consistent
-    assert excluded > 20 or outliers == 29
+    poses = np.random.default_rng(0).uniform(0.0, (8.0, 6.0, 6.2), (600, 3))
+    poses = poses[grid.cells[tuple((poses[:, 1::-1] / 0.1).astype(int).T)] == FREE]
+    consistent = bad_beams(UsedBeams.of(scan, config), poses, Obstacles(grid)) <= estimate.outliers_allowed
+    contained = np.array([estimate.poses.contains(Pose(*pose)) for pose in poses.tolist()])
+    assert consistent.sum() > 100
+    assert contained[consistent].all()
+    assert outliers == 29 or (~contained).sum() > 20
 
 
 @pytest.mark.parametrize(
@@ -187,3 +183,24 @@ def test_a_ray_ends_before_the_wall_by_the_error_and_by_the_margin(
     box = Boxes.of([(2.0, 2.0), (6.0, 6.0), (0.0, 1e-9)])
     found = count_blocked(box, np.zeros(1, np.int16), beams, 2, CellIndex(wall, 0.05), BitColumns(wall), 0.0)
     assert found.tolist() == [count]
+
+
+@pytest.mark.parametrize("bearing", [0.0, 1.6, -2.5])
+@pytest.mark.parametrize("aside", [-0.08, 0.08])
+def test_a_ray_that_passes_a_gap_at_some_bearing_or_heading_is_not_blocked(bearing: float, aside: float) -> None:
+    """A wall 4 m away, all around, with a gap at an angle that only the error of the bearing, or the width of the box, reaches."""
+    rows, columns = np.mgrid[0:240, 0:240] - 119.5
+    turn = np.angle(np.exp(1j * (np.arctan2(rows, columns) - bearing - aside)))
+    wall = np.abs(np.hypot(rows, columns) - 80.0) <= 2.0
+    index, bits = CellIndex(wall & (np.abs(turn) > 0.03), 0.05), BitColumns(wall & (np.abs(turn) > 0.03))
+    beams = {
+        error: select_beams(LaserScan(0, np.array([5.5], np.float32), bearing, 0.1), Bounds(0.0, error, 0.0), 0, 1, FreeSpace(True, 0.01))
+        for error in (0.0, 0.04, 0.1)
+    }
+
+    def count(error: float, low: float, high: float) -> int:
+        box = Boxes.of([(6.0, 6.0), (6.0, 6.0), (low, high)])
+        return int(count_blocked(box, np.zeros(1, np.int16), beams[error], 2, index, bits, 1.0)[0])
+
+    assert count(0.0, -1e-9, 1e-9) == count(0.04, -1e-9, 1e-9) == count(0.0, -0.04, 0.04) == 1
+    assert count(0.1, -1e-9, 1e-9) == count(0.0, min(aside, 0.0), max(aside, 0.0)) == 0

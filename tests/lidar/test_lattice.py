@@ -186,3 +186,19 @@ def test_halves_of_cells_never_stick_out_of_their_cell(position: float) -> None:
 @pytest.mark.parametrize("position", [0.1, 0.05, 0.3, 1.0 / 3.0, 0.25, 1e-3, 1e4])
 def test_the_width_of_a_cell_is_the_wanted_one_to_seven_digits(position: float) -> None:
     assert position <= Lattice(position, 0.1).position_m <= Lattice(position, 0.1).widths[0] <= position * (1.0 + 2e-6)
+
+
+@pytest.mark.parametrize("position", [0.1, 1.0 / 3.0, 0.0333, 0.05, 1.0, 0.7])
+def test_a_double_beside_the_edge_of_a_cell_is_in_the_cell_on_its_side(position: float) -> None:
+    lattice = Lattice(position, 1.0)
+    edges = lattice.position_m * np.concatenate([np.arange(-300, 1500), 2 ** np.arange(1, 17) + 1, np.arange(65_000, 65_536)])
+    for side in (-1.0, 1.0):
+        at = np.nextafter(edges, side * np.inf)[edges != 0.0]
+        for axis in (0, 1):
+            bounds = np.zeros((len(at), 3))
+            bounds[:, axis] = at
+            cells = [lattice.tiles(Boxes(row[None], row[None])) for row in bounds[:: 97 if axis else 1]]
+            boxes = [lattice.boxes(each) for each in cells]
+            for row, box in zip(bounds[:: 97 if axis else 1], boxes, strict=True):
+                assert len(box) == 1
+                assert box.lower[0, axis] < row[axis] < box.upper[0, axis]

@@ -123,6 +123,9 @@ def test_a_moving_robots_true_end_points_lie_in_the_error_region(seed: int) -> N
         assert abs(aside @ (-direction[1], direction[0])) <= beams.errors[i, 1] + SLACK
         assert math.hypot(laser.x - beams.rays.origins[i, 0], laser.y - beams.rays.origins[i, 1]) <= beams.rays.margins[i] - 0.1 + SLACK
         assert abs(math.remainder(angle - beams.rays.angles[i], 2.0 * math.pi)) <= beams.rays.turns[i] + SLACK
+        # A ray that begins elsewhere ends, along the beam, before the true one does.
+        ahead = (laser.x - beams.rays.origins[i, 0]) * math.cos(angle) + (laser.y - beams.rays.origins[i, 1]) * math.sin(angle)
+        assert beams.rays.lengths[i] <= float(recorded.ranges[i]) - 0.02 - 0.1 + ahead + SLACK
 
 
 @pytest.mark.parametrize("deskew", [False, True])

@@ -44,6 +44,15 @@ def test_an_annulus_around_a_centre() -> None:
     assert outside.upper.tolist() == [[INF, INF], [10.5, 0.5], [20, 0], [5, INF]]
 
 
+@pytest.mark.parametrize(("x", "y", "r"), [(3, 4, 5), (5, -12, 13), (-8, 15, 17), (7 / 64, 24 / 64, 25 / 64), (0, 2, 2)])
+def test_a_point_on_a_circle_lies_on_both_sides_of_it(x: float, y: float, r: float) -> None:
+    point = Boxes.of([(x, x), (y, y)])
+    for distance in (Interval(r, 2.0 * r), Interval(0.5 * r, r), Interval(r, r)):
+        separator = Separator.of(Annulus((0.0, 0.0), distance))
+        assert not separator.outer.contract(point).empty.any()
+        assert not separator.inner.contract(point).empty.any()
+
+
 def test_a_disc_and_the_whole_plane() -> None:
     boxes = Boxes.of([(-0.5, 0.5), (-0.5, 0.5)], [(3, 4), (3, 4)])
     disc = Annulus((0, 0), Interval(-1, 1))

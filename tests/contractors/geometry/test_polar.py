@@ -152,6 +152,16 @@ def test_two_coordinates_follow_from_the_two_others(unknown: tuple[int, int]) ->
         assert found[i] == pytest.approx(KNOWN[i], abs=4e-15)
 
 
+def test_the_length_and_the_angle_of_a_point_are_enclosed_exactly() -> None:
+    rng = np.random.default_rng(8)
+    with mpmath.workdps(60):
+        for x, y in (rng.uniform(-1.0, 1.0, (300, 2)) * 10.0 ** rng.integers(-6, 6, (300, 1))).tolist():
+            sides = contract((x, x), (y, y), (0.0, INF), (-PI_UPPER, PI_UPPER))
+            assert sides[R][0] <= mpmath.hypot(x, y) <= sides[R][1]
+            assert sides[THETA][0] <= mpmath.atan2(y, x) <= sides[THETA][1]
+            assert sides[R][1] - sides[R][0] <= 2.0**-51 * abs(x + 1j * y)
+
+
 def test_points_on_an_axis_are_found_without_any_width_across_it() -> None:
     assert contract(ENTIRE, ENTIRE, (2.0, 2.0), (0.0, 0.0))[Y] == (0.0, 0.0)
     assert contract((3.0, 3.0), (0.0, 0.0), ENTIRE, (-3.0, 3.0)) == [(3.0, 3.0), (0.0, 0.0), (3.0, 3.0), (0.0, 0.0)]

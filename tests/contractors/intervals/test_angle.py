@@ -121,3 +121,18 @@ def test_directions_of_points_of_a_box_are_never_lost() -> None:
         for y, x in ((yl, xl), (yl, xu), (yu, xl), (yu, xu), (0.5 * (yl + yu), 0.5 * (xl + xu))):
             if x or y:
                 assert contains_angle(*direction(yl, yu, xl, xu), math.atan2(y + 0.0, x + 0.0))
+
+
+def test_the_angle_of_a_corner_is_enclosed_exactly_across_the_cut_too() -> None:
+    random = np.random.default_rng(4)
+    with mpmath.workdps(40):
+        for _ in range(2000):
+            yl, yu, xl, xu = *sorted(random.uniform(-1.0, 1.0, 2).tolist()), *sorted(random.uniform(-1.0, 0.3, 2).tolist())
+            low, high = direction(yl, yu, xl, xu)
+            crosses = yl < 0.0 <= yu and xl < 0.0
+            if crosses and xu >= 0.0:
+                continue
+            for y in (yl, yu):
+                for x in (xl, xu):
+                    angle = mpmath.atan2(y, x)
+                    assert low <= (angle + 2 * mpmath.pi if crosses and angle < 0 else angle) <= high

@@ -256,3 +256,16 @@ def test_many_boxes_of_very_different_sizes_form_a_tree_of_halves() -> None:
 def test_boxes_that_cannot_be_clustered_are_refused(boxes: Boxes, circular: tuple[int, ...], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         cluster(boxes, circular)
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_any_axis_may_be_the_circular_one(axis: int) -> None:
+    """Rows are compared in the order of a curve that follows the last axis first; boxes across the cut come in any order along another."""
+    order = [2, 0, 1] if axis == 0 else [0, 2, 1]
+    for seed in range(150):
+        boxes = random_boxes(np.random.default_rng(seed))
+        found = cluster(Boxes(boxes.lower[:, order], boxes.upper[:, order]), circular=(axis,))
+        expected = cluster_poses(boxes)
+        assert found.labels.tolist() == expected.labels.tolist() == twin(boxes)
+        assert np.array_equal(found.hulls.lower, expected.hulls.lower[:, order])
+        assert np.array_equal(found.hulls.upper, expected.hulls.upper[:, order])

@@ -68,6 +68,17 @@ def test_what_is_proved_of_boxes() -> None:
     assert not len(certify(Function(x), Boxes.none(1)).unique)
 
 
+def test_the_zero_of_a_linear_function_is_proved_on_the_whole_line_and_that_of_another_is_not() -> None:
+    x, y = variables("x y")
+    plane = Boxes.of([(-INF, INF), (-INF, INF)])
+    found = certify(Function(x + y - 3, x - y - 1), plane)
+    assert found.unique.tolist() == [True]
+    assert found.boxes.contain([2.0, 1.0]).all()
+    assert (found.boxes.width() < 1e-12).all()
+    bent = certify(Function(x + y - 3, x - y - 1 + 0.01 * x * y), plane)
+    assert bent.unknown.tolist() == [True]
+
+
 @pytest.mark.parametrize(
     "make", [lambda x: x**2, lambda x: (x - 1) ** 3, lambda x: abs(x), lambda x: x * x * (x - 1) ** 2, lambda x: 1 - cos(x)]
 )
