@@ -32,6 +32,7 @@ def fuzzed(mode: str, poses: int) -> Tally:
 def test_no_consistent_pose_is_lost(mode: str) -> None:
     tally = fuzzed(mode, 1000)
     assert not tally.losses, f"{len(tally.losses)}, such as {tally.losses[0]}"
+    assert not tally.wrong
     assert tally.drives > 0
 
 
