@@ -1,4 +1,4 @@
-"""A million poses that must not be lost: random drives in all that a robot may undergo, and an oracle that shares no code with the search."""
+"""A million poses that must not be lost: random drives through all that a robot may undergo, and an oracle that is not the search."""
 
 import sys
 import time
@@ -47,14 +47,17 @@ def main() -> None:
     report.table(
         ["", "drives", "scans", "statuses", "consistent poses tried", "lost", "s"], (row(mode, tally) for mode, tally in tallies.items())
     )
+    wrong = [each for tally in tallies.values() for each in tally.wrong]
     losses = [loss for tally in tallies.values() for loss in tally.losses]
     tried, seconds = sum(each.tried for each in tallies.values()), time.perf_counter() - begun
-    report.say(f"**{tried:,} tried, {len(losses)} lost**, in {seconds:.0f} s.\n")
+    report.say(f"**{tried:,} tried, {len(losses)} lost**, in {seconds:.0f} s. Wrong numbers of used or allowed beams: {len(wrong)}.\n")
+    for each in wrong[:SHOWN]:
+        report.say(f"- {each}")
     drives = {(loss.mode, loss.seed): loss for loss in losses}
     for loss in list(drives.values())[:SHOWN]:
         report.say(f"- `--mode {loss.mode} --seed {loss.seed} --drives 1`: {loss}")
     report.write(chosen.out)
-    sys.exit(bool(losses))
+    sys.exit(bool(losses or wrong))
 
 
 if __name__ == "__main__":

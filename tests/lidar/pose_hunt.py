@@ -30,7 +30,7 @@ Random = np.random.Generator
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """The set before a scan in one map, the answer after it, and what was printed of it."""
+    """The set before a scan in one map, the answer after it, and what was printed of it; what of that is wrong by itself."""
 
     before: BoxIndex
     after: PoseSet
@@ -38,6 +38,7 @@ class Part:
     status: str
     allowed: int
     circle: tuple[Pose, float] | None = None
+    wrong: str = ""
 
 
 class Oracle:
