@@ -28,11 +28,19 @@ def environment(seed: int) -> Environment:
 
 
 def aimed(walls: ExactWalls, random: np.random.Generator, wall: int, part: float) -> float:
-    """Return a heading at random, or the double nearest to the direction of a corner, or one beside it; of any turn."""
-    if random.integers(2):
+    """Return a heading at random, or the double nearest to the direction of a corner, or one beside it; of any turn.
+
+    Or the direction of a point of the next wall or the one before: from very near their corner, such a ray is almost parallel to the wall.
+    """
+    kind = random.integers(3)
+    if kind == 0:
         return float(random.uniform(-7.0, 7.0))
+    target = random.integers(len(walls.starts))
+    if kind == 1:
+        corner = walls.starts[wall] if part < 0.5 else walls.ends[wall]
+        target = (walls.ends if part < 0.5 else walls.starts).index(corner)
     with mpmath.workdps(DIGITS):
-        (x, y), (cx, cy) = walls.point(wall, part), walls.starts[random.integers(len(walls.starts))]
+        (x, y), (cx, cy) = walls.point(wall, part), walls.point(target, float(random.random() if kind == 1 else 0.0))
         heading = float(mpmath.atan2(cy - y, cx - x) + 2 * mpmath.pi * int(random.integers(-1, 2)))
     for _ in range(random.integers(3)):
         heading = float(np.nextafter(heading, random.choice([-9.0, 9.0])))
