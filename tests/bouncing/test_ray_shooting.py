@@ -113,6 +113,27 @@ def test_what_one_ray_hits_is_in_what_its_beam_hits(seed: int) -> None:
         assert reach(walls, wall, lower, upper) >= way
 
 
+@pytest.mark.parametrize("seed", range(10))
+def test_a_wall_that_stops_some_rays_of_a_beam_does_not_stop_the_others(seed: int) -> None:
+    """From one arm of a corner to the other and beyond its end: the walls behind the start close the chain of walls, and stop no ray."""
+    random = np.random.default_rng(seed)
+    room, corner = (
+        tuple((Fraction(x), Fraction(y)) for x, y in ring)
+        for ring in (((0, 0), (20, 0), (20, 20), (0, 20)), ((5, 5), (9, 5), (9, 6), (6, 6), (6, 9), (5, 9)))
+    )
+    there = Environment((Polygon(room, (corner,)),))
+    walls, exactly = Walls.of(there), ExactWalls.of(there)
+    for wall in range(4, 10):
+        along = float(exactly.angle(wall))
+        for _ in range(30):
+            lower = (random.uniform(0.0, 0.9), along + random.uniform(0.05, 2.9))
+            upper = (random.uniform(lower[0], 1.0), min(along + 3.1, lower[1] + random.uniform(0.0, 1.0)))
+            far = reach(walls, wall, lower, upper)
+            for _ in range(6):
+                hit = exactly.first_hit(wall, float(random.uniform(lower[0], upper[0])), exact(float(random.uniform(lower[1], upper[1]))))
+                assert hit is None or hit[2] <= far
+
+
 @pytest.mark.parametrize("seed", WORLDS)
 def test_a_robot_that_arrives_may_have_come_from_as_far_as_its_ray_is_free(seed: int) -> None:
     walls, exactly = Walls.of(environment(seed)), ExactWalls.of(environment(seed))
