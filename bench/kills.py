@@ -1,5 +1,6 @@
 """`ial stream` killed again and again: its answers are those of an uninterrupted run, and every other file is left alone."""
 
+import io
 import json
 import os
 import random
@@ -10,13 +11,14 @@ import time
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from itertools import islice
 from pathlib import Path
 
 import numpy as np
-from onboard import MAP, lines
+from onboard import LOG, MAP
 from report import Report, options
 
+from ial.datasets.conversion import convert_to_lines
+from ial.datasets.opening import open_recording
 from ial.lidar.output_end import OutputEnd
 
 ABOUT = """\
@@ -137,10 +139,21 @@ class Round:
             self.counts["torn"] += 1
 
 
+def _first(scans: int) -> Iterator[bytes]:
+    """Yield the lines of a recording up to its nth scan."""
+    content = io.StringIO()
+    convert_to_lines(open_recording(Path(os.environ["IAL_DATA"]) / LOG), content)
+    for line in content.getvalue().encode().splitlines(keepends=True):
+        scans -= line.startswith(b'{"scan"')
+        if scans < 0:
+            return
+        yield line
+
+
 def rounds(kills: int, scans: int, each: int, folder: Path) -> Iterator[Iterator[object]]:
     """Yield the lines of the table."""
     fed, whole = folder / "fed.jsonl", folder / "whole.jsonl"
-    fed.write_text("".join(f"{odometry}\n{scan}\n" for odometry, scan in islice(lines(scans), scans)))
+    fed.write_bytes(b"".join(_first(scans)))
     first = Round(folder / "whole", fed, b"\n", random.Random(0))
     assert first.start(out=whole).wait() == 0
     total: Counter[str] = Counter()

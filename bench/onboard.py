@@ -14,7 +14,6 @@ import numpy as np
 from report import Report, options
 
 from ial.datasets.opening import open_recording
-from ial.datasets.recording import Reading
 from ial.datasets.scan_stream import odometry_line, scan_line
 
 ABOUT = """\
@@ -34,7 +33,7 @@ def lines(count: int) -> Iterator[tuple[str, str]]:
         reading = readings[at]
         stamp = reading.stamp_ns + turn * period
         scan = replace(reading.scan, stamp_ns=stamp)
-        yield odometry_line(Reading(number, stamp, reading.odometry, scan)), scan_line(scan)
+        yield odometry_line(stamp, reading.odometry), scan_line(scan)
 
 
 def start(*arguments: object) -> "subprocess.Popen[bytes]":

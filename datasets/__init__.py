@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from ial.datasets.motion import Motion as Motion
     from ial.datasets.motion import MotionBounds as MotionBounds
     from ial.datasets.odometry import Odometry as Odometry
+    from ial.datasets.odometry_path import OdometryPath as OdometryPath
     from ial.datasets.opening import open_recording as open_recording
     from ial.datasets.recording import Reading as Reading
     from ial.datasets.recording import Recording as Recording
@@ -43,6 +44,7 @@ else:
             "kidnapping": ("Kidnapping", "kidnap"),
             "motion": ("ErrorBound", "Motion", "MotionBounds"),
             "odometry": ("Odometry",),
+            "odometry_path": ("OdometryPath",),
             "opening": ("open_recording",),
             "recording": ("Reading", "Recording", "Step", "steps"),
             "sample": ("sample_grid", "sample_map_path", "sample_recording"),

@@ -36,6 +36,7 @@ class OdometryBuffer:
         self._limits: dict[int, tuple[float, float]] = {}
         self._fixed: dict[int, Odometry] = {}
         self._sorted = True
+        self.kept_since_ns = -(2**63)  # what is older was left out by `forget`
         for stamp, odometry in samples:
             self.add(stamp, odometry)
 
@@ -112,6 +113,7 @@ class OdometryBuffer:
         if count > 0:
             del self._stamps[:count]
             del self._numbers[: NUMBERS * count]
+            self.kept_since_ns = self._stamps[0]
 
     def lose(self, count: int) -> None:
         """Leave out the oldest messages, so that nothing is known of the motion over them: the last of them gets infinite errors."""

@@ -5,6 +5,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import Protocol
 
+import numpy as np
+
 from ial.datasets.info import RecordingInfo
 from ial.datasets.motion import Motion, MotionBounds
 from ial.datasets.odometry import Odometry
@@ -116,7 +118,14 @@ class Mark:
 
 
 def steps(
-    recording: Recording, bounds: MotionBounds, start: int = 0, stop: int | None = None, every: int = 1, after: Mark | None = None
+    recording: Recording,
+    bounds: MotionBounds,
+    start: int = 0,
+    stop: int | None = None,
+    every: int = 1,
+    after: Mark | None = None,
+    *,
+    no_return: bool = False,
 ) -> Iterator[Step]:
     """Yield the scans start, start + every, … below stop, each with the motion since the one yielded before.
 
@@ -134,6 +143,8 @@ def steps(
     after
         Go on behind this scan: scans and messages up to its stamp are passed over. Where the recording does not hold it (a live one, which
         went on in the meantime), scans are counted on from its number, and the time without messages is one piece of the odometry.
+    no_return
+        Whether beams without return are usable, as hits are.
 
     Raises
     ------
@@ -146,6 +157,7 @@ def steps(
     motion: Motion | None = None
     recorded: list[OdometryPath] = []
     yielded, usable = 0, after is not None
+    used = (BeamClass.HIT, BeamClass.NO_RETURN) if no_return else (BeamClass.HIT,)
     for reading in _behind(recording, after):
         if stop is not None and reading.index >= stop:
             break
@@ -158,7 +170,7 @@ def steps(
         previous = here
         if reading.index < start or (reading.index - start) % every:
             continue
-        usable = usable or bool((reading.scan.classes() == BeamClass.HIT).any())
+        usable = usable or bool(np.isin(reading.scan.classes(), used).any())
         yield Step(reading.index, reading.stamp_ns, motion, reading.scan, reading.odometry, tuple(recorded))
         yielded += 1
         motion, recorded = None, []

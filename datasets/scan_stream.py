@@ -55,7 +55,8 @@ class _Waiting:
     def record(self, odometry: OdometryBuffer) -> Record:
         """Return the scan with what is known of the odometry; messages are forgotten when they are taken."""
         stamp, end = self.stamp_ns, self.end_ns
-        first = self.first or odometry.at(stamp)
+        # Where its messages are forgotten already, a scan that comes too late is of no use, whatever it says about itself.
+        first = odometry.at(stamp) if self.first is None or stamp < odometry.kept_since_ns else self.first
         sweep = None
         if first is not None and math.isfinite(first.error_m) and self.last is not None and end != stamp:
             sweep = odometry.between(stamp, end).joining((stamp, first), (end, self.last))

@@ -28,6 +28,14 @@ SIBLINGS = {  # the only imports within a floor
     "particles": {"lidar"},
     "study": {"results"},
 }
+NUMBERED = {  # files that hold numbers as small as a margin, and are none that widens a bound
+    "contractors/rounding.py": "asks the processor how it rounds",
+    "contractors/solving/zeros.py": "the width of a first guess, which is then proved or not",
+    "datasets/simulator.py": "how far simulated errors keep off their bounds",
+    "datasets/survey.py": "seconds in a nanosecond",
+    "maps/occupancy_grid.py": "the smallest width of a cell that is believed",
+    "maps/ray_casting.py": "what a simulated ray is said to touch",
+}
 VAGUE = {"utils", "util", "helpers", "helper", "common", "core", "misc"}
 
 
@@ -116,6 +124,33 @@ def test_a_room_names_the_file_of_its_own_nouns(module: str) -> None:
 
 def test_no_vague_names() -> None:
     assert [str(file) for file in kept_files() if VAGUE & set(file.relative_to(ROOT).with_suffix("").parts)] == []
+
+
+def looks_like_a_margin(node: ast.AST) -> bool:
+    """Whether an expression is a number such as ``2.0**-40``, ``1e-9`` or ``1.01``."""
+    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow) and isinstance(node.right, ast.UnaryOp):
+        return ast.unparse(node.left) in {"2", "2.0"} and 12 <= int(ast.unparse(node.right.operand)) <= 60
+    return isinstance(node, ast.Constant) and re.fullmatch(r"[1-9]e-(0[5-9]|[1-5]\d)|1\.0(0\d*)?[1-9]\d*", repr(node.value)) is not None
+
+
+@pytest.mark.parametrize("text", ["2.0**-48", "2 ** -20", "1.0 + 2.0**-40", "x * 1.01", "1e-9", "1.001", "5e-14"])
+def test_margins_are_recognized(text: str) -> None:
+    assert any(map(looks_like_a_margin, ast.walk(ast.parse(text))))
+
+
+@pytest.mark.parametrize("text", ["2.0**16", "2.0**-300", "1.0", "0.5", "1e-3", "1.25", "1e5", "'1e-9'"])
+def test_other_numbers_are_no_margins(text: str) -> None:
+    assert not any(map(looks_like_a_margin, ast.walk(ast.parse(text))))
+
+
+def test_margins_have_names_and_one_place() -> None:
+    found = set()
+    for file in MODULES.values():
+        name = file.relative_to(ROOT).as_posix()
+        if name.startswith(("contractors/", "maps/", "datasets/", "ial/lidar/", "ial/bouncing/")) and file.name != "margins.py":
+            found |= {name for node in ast.walk(ast.parse(file.read_text())) if looks_like_a_margin(node)}
+    assert found - NUMBERED.keys() == set(), "use a name of margins.py, and say what it covers"
+    assert NUMBERED.keys() - found == set()
 
 
 def test_tests_mirror_the_tree() -> None:

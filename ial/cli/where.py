@@ -50,7 +50,8 @@ def where(
     source = open_recording(path, scan_topic or (), odom_topic, pose_of(laser_pose))
     atlas = Atlas({name: load_map(path, semantics) for name, path in named(maps).items()}, resolved)
     with Lines(out) as lines:
-        for step in progress(steps(source, resolved.bounds.motion, start, stop, every), None, Path(source.name).name):
+        chosen = steps(source, resolved.bounds.motion, start, stop, every, no_return=resolved.free_space.no_return)
+        for step in progress(chosen, None, Path(source.name).name):
             lines.add(step, atlas.update(step.motion, step.scan))
     if as_json:
         say_json(lines.record())

@@ -105,7 +105,7 @@ def select_beams(scan: LaserScan, bounds: Bounds, outliers: Share, max_beams: in
     rays = None
     if free_space is not None and free_space.use:
         among = _spread(np.arange(len(used)), free_space.max_rays)
-        alone = np.flatnonzero(classes == BeamClass.NO_RETURN) if free_space.no_return_m else np.empty(0, dtype=np.intp)
+        alone = np.flatnonzero(classes == BeamClass.NO_RETURN) if free_space.no_return else np.empty(0, dtype=np.intp)
         alone = _spread(alone, free_space.max_rays)
         farthest = min(free_space.no_return_m, scan.range_max)
         rows = np.concatenate([used[among], alone])

@@ -96,6 +96,11 @@ class FreeSpace:
     max_rays: int = 60
     no_return_m: float = 0.0
 
+    @property
+    def no_return(self) -> bool:
+        """Whether beams without return are used."""
+        return self.use and self.no_return_m > 0.0
+
     def __post_init__(self) -> None:
         _check("free_space.margin_m", self.margin_m)
         _check("free_space.no_return_m", self.no_return_m)
@@ -184,7 +189,8 @@ class LocalizerConfig:
         What follows a scan that fits nowhere in the prediction: `union` carries the prediction on beside the poses found on the whole map,
         and keeps the truth whichever of the last motion and the last scan broke its bound; `restart` (the paper's) trusts the scan alone.
     max_seconds
-        A limit on the time of one scan; None for none. An answer that reaches it is coarser, marked, and not reproducible.
+        A limit on the time of one scan; None for none. An answer that reaches it is coarser, marked, and not reproducible, nor need be
+        those of the scans behind it.
     """
 
     bounds: Bounds = field(default_factory=Bounds)

@@ -5,7 +5,6 @@ import math
 from ial.contractors.intervals.rotation import turn_point
 from ial.contractors.intervals.trigonometric import LARGEST_ANGLE, sincos
 from ial.contractors.kernels import kernel
-from ial.contractors.margins import ABOVE
 from ial.lidar.margins import MARGIN, REACH
 
 
@@ -28,16 +27,16 @@ def relative_bounds(theta_lower, theta_upper, ends, directions, errors, map_erro
         px, py = ends[i, 0], ends[i, 1]
         along, across = errors[i, 0], errors[i, 1]
         if whole:
-            radius = (math.sqrt(px * px + py * py) + along + across) * ABOVE
+            radius = math.sqrt(px * px + py * py) + along + across
             xl, xu, yl, yu = -radius, radius, -radius, radius
         else:
             xl, xu, yl, yu = turn_point(px, py, s0, c0, s1, c1)
             dxl, dxu, dyl, dyu = turn_point(directions[i, 0], directions[i, 1], s0, c0, s1, c1)
             most_x = max(abs(dxl), abs(dxu))
             most_y = max(abs(dyl), abs(dyu))
-            # Where much is taken off a far end point, what is left may be small: these two are rounded up, and not left to the margin.
-            wide_x = (along * most_x + across * most_y) * ABOVE
-            wide_y = (along * most_y + across * most_x) * ABOVE
+            # Of lengths within reach the margin covers what is rounded here; of a farther point, that by which `turn_point` has widened it.
+            wide_x = along * most_x + across * most_y
+            wide_y = along * most_y + across * most_x
             xl -= wide_x
             xu += wide_x
             yl -= wide_y

@@ -4,13 +4,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes
+from ial.contractors.margins import ROUNDINGS
 from ial.contractors.paving.clusters import cluster
 from ial.maps.rigid_transform import boxes_from_frame
 from ial.pose import Pose
-
-_ROUNDING = 2.0**-40
-"""How far, in shares of the map's size and in radians, a turned box may lie beside its image: a symmetry is made of doubles, wrong by
-less than 2^-48. More only lets hypotheses touch that do not, so that less is said."""
 
 
 def are_images(boxes: Boxes, symmetries: tuple[Pose, ...], size_m: float) -> bool:
@@ -35,7 +32,9 @@ def are_images(boxes: Boxes, symmetries: tuple[Pose, ...], size_m: float) -> boo
     count = int(labels.max(initial=-1)) + 1
     if not 1 < count <= 1 + len(symmetries):
         return False
-    slack = _ROUNDING * np.array([size_m, size_m, 1.0])
+    # A symmetry is made of doubles: the sine of its angle, its middle, and two products of poses are fewer than 31 roundings of terms that
+    # are no larger than the map. More would only let hypotheses touch that do not, so that less is said.
+    slack = ROUNDINGS * np.array([size_m, size_m, 1.0])
     reached = {0}
     for symmetry in symmetries:
         turned = boxes_from_frame(boxes, symmetry)

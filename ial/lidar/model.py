@@ -7,7 +7,6 @@ import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.margins import ABOVE
-from ial.contractors.paving.clusters import cluster
 from ial.contractors.paving.limits import Deadline
 from ial.contractors.paving.paver import pave
 from ial.contractors.paving.waiting import Order
@@ -234,19 +233,11 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         halvings = self.config.precision.halvings
         if not halvings or not reading.informative or poses.limited or not 0 < len(poses) <= _TRIMMED or poses.carried.any():
             return poses
-        clusters = cluster(poses.boxes, circular=(2,))
-        lowest = self.lattice.layer(clusters.hulls)[clusters.labels]
-        layers = (self.lattice.layer(poses.boxes) - lowest) % self.lattice.layers
         allowed = reading.allowing(poses.outliers)
-        lower, upper = poses.boxes.lower.copy(), poses.boxes.upper.copy()
-        kept = np.zeros(len(poses), dtype=np.bool_)
-        for key, rows, part in self.sheets.parts(poses.boxes):
-            occupied = self.sheets[key].occupied
-            cut, kept[rows] = trim(part, clusters.labels[rows], layers[rows], allowed, occupied, self.config.bounds.map_error_m, halvings)
-            lower[rows], upper[rows] = cut.lower, cut.upper
+        cut, kept = trim(poses.boxes, self.lattice, self.sheets, allowed, self.config.bounds.map_error_m, halvings)
         if not kept.any():
             return poses
-        return replace(poses, boxes=Boxes(lower, upper)[kept], carried=poses.carried[kept], bad=poses.bad[kept])
+        return replace(poses, boxes=cut[kept], carried=poses.carried[kept], bad=poses.bad[kept])
 
     def symmetries(self) -> tuple[Pose, ...]:
         """Return the rotations of the grid's frame after which no scan can tell the difference."""

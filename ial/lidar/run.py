@@ -37,5 +37,6 @@ def localize(
     RecordingError
         If the recording cannot be read, or has no usable scan.
     """
-    for step in steps(recording, localizer.config.bounds.motion, start, stop, every, after):
+    config = localizer.config
+    for step in steps(recording, config.bounds.motion, start, stop, every, after, no_return=config.free_space.no_return):
         yield step, localizer.locate(step.scan) if static else localizer.update(step.motion, step.scan)

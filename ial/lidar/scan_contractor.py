@@ -19,23 +19,27 @@ from ial.maps.cell_index import BORDER, CellIndex
 
 
 @kernel
-def fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit):  # type: ignore[no-untyped-def]
+def fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit, order):  # type: ignore[no-untyped-def]
     """Return whether at most q beams certainly miss every occupied cell from all of a box, whose bounds are given in cells.
 
-    A beam fails if the rectangle of its possible end points meets no occupied cell: four look-ups in the summed-area table.
+    A beam fails if the rectangle of its possible end points meets no occupied cell: four look-ups in the summed-area table. Beams are tried
+    in an order, in which those that fail move to the front: from the next box the same will mostly fail.
     """
     beams = len(bounds)
     failed = 0
-    for i in range(beams):
+    for at in range(beams):
+        i = order[at]
         left, below, right, above = corners(bounds, i, xl, yl, xu, yu, column_limit, row_limit)
         low = np.uint64(below) * stride
         high = np.uint64(above) * stride
         near = np.uint64(left)
         far = np.uint64(right)
-        failed += flat[high + far] - flat[low + far] - flat[high + near] + flat[low + near] == 0
-        if failed > q:
-            return False
-        if i + 1 - failed >= beams - q:
+        if flat[high + far] - flat[low + far] - flat[high + near] + flat[low + near] == 0:
+            order[at], order[failed] = order[failed], i
+            failed += 1
+            if failed > q:
+                return False
+        elif at + 1 - failed >= beams - q:
             return True
     return True
 
@@ -47,6 +51,7 @@ def _test(start, stop, order, lower, upper, ends, directions, errors, q, map_err
     row_limit = np.int32(bordered.shape[0] - 1)
     column_limit = np.int32(bordered.shape[1] - 1 - 2 * BORDER)
     bounds = np.empty((len(ends), 4))
+    beams = np.arange(len(ends))
     theta_lower = np.nan
     theta_upper = np.nan
     for at in range(start, stop):
@@ -63,7 +68,7 @@ def _test(start, stop, order, lower, upper, ends, directions, errors, q, map_err
         near = min(xl, yl) >= -NEAR and max(xu, yu) <= NEAR  # elsewhere the indices would not be right, so the box is kept
         xl, yl = xl + OFFSET, yl + OFFSET
         xu, yu = xu + (OFFSET + 1.0), yu + (OFFSET + 1.0)
-        keep[row] = not near or fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit)
+        keep[row] = not near or fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit, beams)
 
 
 @kernel

@@ -108,7 +108,7 @@ class Sheets:
         one = grid.rows * grid.columns * split**2 <= _ONE_SHEET and split * max(grid.rows, grid.columns) <= LARGEST_SIDE
         self._rows, self._columns = (1, 1) if one else (math.ceil(size / self._side_m * ABOVE) for size in (grid.height_m, grid.width_m))
         if not self._countable(split, self._margin):
-            self._refuse("the map has too many of these parts", self._margin)
+            self._refuse("there are too many of these to be counted", self._margin)
         self._root = lattice.root(grid.width_m, grid.height_m)
         if radius_m and not any(self._roomy(*self._window((row, column))).any() for row, column in np.ndindex(self._rows, self._columns)):
             raise MapError(f"a robot with a radius of {radius_m:g} m fits nowhere in this map; give a smaller robot_radius_m")
@@ -123,7 +123,7 @@ class Sheets:
         """Boxes that hold every pose in the map, and whose repeated bisection meets the cells of the lattice."""
         if self.one:
             return self._root
-        return Boxes.concatenate([self._core((row, column)) for row, column in np.ndindex(self._rows, self._columns)])
+        return self._cores(*np.divmod(np.arange(self._rows * self._columns), self._columns))
 
     def reach(self, beams: Beams, map_error_m: float) -> None:
         """See to it that the tables of every sheet hold all obstacles that the beams of a scan can end at or be blocked by.
@@ -196,7 +196,7 @@ class Sheets:
         for name in np.unique(names):
             key = divmod(int(name), self._columns)
             chosen = rows[names == name]
-            core = self._core(key)
+            core = self._cores(np.array(key[:1]), np.array(key[1:]))
             lower, upper = boxes.lower[chosen].copy(), boxes.upper[chosen].copy()
             lower[:, :2] = np.maximum(lower[:, :2], core.lower[:, :2])
             upper[:, :2] = np.minimum(upper[:, :2], core.upper[:, :2])
@@ -205,10 +205,12 @@ class Sheets:
             if inside.any():
                 yield key, chosen[inside], cut[inside]
 
-    def _core(self, key: Key) -> Boxes:
-        row, column = key
-        side = self._side_m
-        return Boxes.of([(column * side, (column + 1) * side), (row * side, (row + 1) * side), (-PI_UPPER, PI_UPPER)])
+    def _cores(self, rows: npt.NDArray[np.int64], columns: npt.NDArray[np.int64]) -> Boxes:
+        """Return the poses in the cores of sheets, whose bounds are exact."""
+        turn, side = np.full(len(rows), PI_UPPER), self._side_m
+        return Boxes(
+            np.stack([columns * side, rows * side, -turn], axis=1), np.stack([(columns + 1) * side, (rows + 1) * side, turn], axis=1)
+        )
 
     def _window(self, key: Key) -> tuple[slice, slice]:
         """Return which cells of the map the tables of a sheet hold."""

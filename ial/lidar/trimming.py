@@ -1,24 +1,27 @@
-"""How far a hypothesis really reaches: its outermost cells are halved again and again, and what holds no consistent pose is cut off.
+"""How far an answer really reaches: its outer cells are cut back to the pieces of them that may hold a consistent pose.
 
-A search ends with cells of one size. Where few of them are left, their outer faces can be found more finely: along each face the
-outermost piece is looked for that may hold a consistent pose, cells first, then their halves, and so on. The cells inside stay whole, so
-that what belongs together stays connected.
+A search ends with cells of one size. Where few of them are left, their outer faces, those without a neighbour, can be found more finely:
+the cell is halved along every axis, again and again, and each outer face is moved to the outermost piece that may hold a consistent pose.
+A cell without such a piece is dropped. Faces between two cells stay where they are, so that what belongs together stays connected.
 """
 
 import numpy as np
 import numpy.typing as npt
 
-from ial.contractors.boxes import Boxes
+from ial.contractors.boxes import Boxes, FloatArray
+from ial.contractors.groups import group_rows
 from ial.contractors.kernels import kernel
+from ial.contractors.paving.clusters import cluster
 from ial.contractors.threads import run
 from ial.lidar.beams import Beams
 from ial.lidar.corners import OFFSET
 from ial.lidar.end_points import relative_bounds
+from ial.lidar.lattice import Lattice
 from ial.lidar.margins import NEAR
+from ial.lidar.outer_faces import outer_faces
 from ial.lidar.scan_contractor import fits
-from ial.maps.cell_index import BORDER, CellIndex
-
-_WIDEST = 64  # layers; a hypothesis that spans more headings is left as it is
+from ial.lidar.sheets import Sheets
+from ial.maps.cell_index import BORDER, meets
 
 
 @kernel
@@ -34,144 +37,176 @@ def _interval(lower, upper, depth, number):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _outermost(axis, side, rows, boxes, depth, evidence, q, cells, known, bounds, stack, piece):  # type: ignore[no-untyped-def]
-    """Find the piece of some cells that reaches farthest along an axis, down (side 0) or up; return whether there is one.
+def _reach(cell, outer, depth, evidence, q, grid, headings, stack, reached):  # type: ignore[no-untyped-def]
+    """Write how far the pieces of a cell that may hold a consistent pose reach; return whether there are any.
+
+    Pieces are looked at from the outer faces inward, and none that would not reach farther than those found before.
 
     Parameters
     ----------
-    rows
-        The cells, the farthest first.
-    boxes
-        Lower and upper bounds of the cells, and the layer of each, counted from the lowest one of the hypothesis.
-    known, bounds
-        For each layer and each node of the tree of its halves: whether the relative bounds of the beams are known, and these.
+    cell
+        Lower and upper bounds, float64 of shape (2, 3).
+    outer
+        Which faces may be moved: lower and upper along each axis, bool of shape (2, 3).
+    headings
+        For each node of the tree of halves of the cell's headings: whether the relative bounds of the beams are known, and these.
     stack
         Working space.
-    piece
-        Where to write the row of its cell, and its numbers along x, y and θ.
+    reached
+        Where to write the bounds. Those at other faces are those of the cell.
     """
-    lower, upper, layers = boxes
     ends, directions, errors, map_error = evidence
-    resolution, flat, stride, row_limit, column_limit, origin = cells
-    second, third = (axis + 1) % 3, (axis + 2) % 3
-    best = np.inf
-    for row in rows:
-        stack[0, :] = 0
-        height = 1
-        while height:
-            height -= 1
-            level, nx, ny, nt = stack[height]
-            number = stack[height, 1 + axis]
-            if axis == 2:
-                begin = float(((layers[row] << level) + number) << (depth - level))
-                begin = begin if side == 0 else -(begin + (1 << (depth - level)))
-            else:
-                low, high = _interval(lower[row, axis], upper[row, axis], level, number)
-                begin = low if side == 0 else -high
-            if begin >= best:
+    resolution, flat, stride, row_limit, column_limit, origin, domain = grid
+    known, bounds, failing = headings
+    first = 0
+    for axis in range(3):
+        reached[0, axis] = np.inf if outer[0, axis] else cell[0, axis]
+        reached[1, axis] = -np.inf if outer[1, axis] else cell[1, axis]
+        first |= (outer[1, axis] and not outer[0, axis]) << axis  # the half along each axis that lies at an outer face
+    found = False
+    stack[0, :] = 0
+    height = 1
+    while height:
+        height -= 1
+        level, nx, ny, nt = stack[height]
+        xl, xu = _interval(cell[0, 0], cell[1, 0], level, nx)
+        yl, yu = _interval(cell[0, 1], cell[1, 1], level, ny)
+        tl, tu = _interval(cell[0, 2], cell[1, 2], level, nt)
+        if level:
+            if (
+                reached[0, 0] <= xl
+                and xu <= reached[1, 0]
+                and reached[0, 1] <= yl
+                and yu <= reached[1, 1]
+                and reached[0, 2] <= tl
+                and tu <= reached[1, 2]
+            ):
                 continue
-            layer, node = layers[row], (1 << level) + nt
-            if not known[layer, node]:
-                low, high = _interval(lower[row, 2], upper[row, 2], level, nt)
-                relative_bounds(low, high, ends, directions, errors, map_error, resolution, bounds[layer, node])
-                known[layer, node] = True
-            xl, xu = _interval(lower[row, 0], upper[row, 0], level, nx)
-            yl, yu = _interval(lower[row, 1], upper[row, 1], level, ny)
-            xl, xu = xl / resolution - origin[1], xu / resolution - origin[1]
-            yl, yu = yl / resolution - origin[0], yu / resolution - origin[0]
-            near = min(xl, yl) >= -NEAR and max(xu, yu) <= NEAR
-            xl, yl = xl + OFFSET, yl + OFFSET
-            xu, yu = xu + (OFFSET + 1.0), yu + (OFFSET + 1.0)
-            if near and not fits(xl, yl, xu, yu, bounds[layer, node], q, flat, stride, row_limit, column_limit):
+            if not meets(domain[0], domain[1], domain[2], xl, xu, yl, yu):
                 continue
-            if level == depth:
-                best = begin
-                piece[0], piece[1], piece[2], piece[3] = row, nx, ny, nt
+            node = (1 << level) + nt
+            if not known[node]:
+                relative_bounds(tl, tu, ends, directions, errors, map_error, resolution, bounds[node])
+                known[node] = True
+            left, right = xl / resolution - origin[1], xu / resolution - origin[1]
+            below, above = yl / resolution - origin[0], yu / resolution - origin[0]
+            near = min(left, below) >= -NEAR and max(right, above) <= NEAR
+            left, below = left + OFFSET, below + OFFSET
+            right, above = right + (OFFSET + 1.0), above + (OFFSET + 1.0)
+            if near and not fits(left, below, right, above, bounds[node], q, flat, stride, row_limit, column_limit, failing):
                 continue
-            numbers = (nx, ny, nt)
-            for child in range(8):  # the last one put on the stack is the next, so the outer halves come last
-                outer = (child >> 2) ^ (1 - side)
-                stack[height, 0] = level + 1
-                stack[height, 1 + axis] = 2 * numbers[axis] + outer
-                stack[height, 1 + second] = 2 * numbers[second] + (child & 1)
-                stack[height, 1 + third] = 2 * numbers[third] + ((child >> 1) & 1)
-                height += 1
-    return best < np.inf
+        if level == depth:
+            found = True
+            for axis in range(3):
+                low, high = (xl, xu) if axis == 0 else (yl, yu) if axis == 1 else (tl, tu)
+                if outer[0, axis]:
+                    reached[0, axis] = min(reached[0, axis], low)
+                if outer[1, axis]:
+                    reached[1, axis] = max(reached[1, axis], high)
+            continue
+        for number in range(8):  # the last one put on the stack is the next
+            child = (7 - number) ^ first
+            stack[height, 0] = level + 1
+            stack[height, 1] = 2 * nx + (child & 1)
+            stack[height, 2] = 2 * ny + ((child >> 1) & 1)
+            stack[height, 3] = 2 * nt + (child >> 2)
+            height += 1
+    return found
 
 
 @kernel
-def _trim(start, stop, edges, lower, upper, layers, depth, evidence, q, grid, keep):  # type: ignore[no-untyped-def]
-    """Cut the cells of each hypothesis, rows edges[i] … edges[i + 1] - 1, to its outermost pieces; empty cells are not kept."""
-    resolution, bordered, origin = grid
-    row_limit = np.int32(bordered.shape[0] - 1)
-    column_limit = np.int32(bordered.shape[1] - 1 - 2 * BORDER)
-    cells = (resolution, bordered.reshape(-1)[BORDER:], np.uint64(bordered.shape[1]), row_limit, column_limit, origin)
-    beams = len(evidence[0])
-    stack = np.empty((8 * (depth + 1), 4), dtype=np.int64)
-    piece = np.empty(4, dtype=np.int64)
-    for group in range(start, stop):
-        first, behind = edges[group], edges[group + 1]
-        boxes = (lower[first:behind].copy(), upper[first:behind].copy(), layers[first:behind])
-        deepest = boxes[2].max() + 1
-        if deepest > _WIDEST:
-            continue
-        known = np.zeros((deepest, 2 << depth), dtype=np.bool_)
-        bounds = np.empty((deepest, 2 << depth, beams, 4))
-        for axis in range(3):
-            for side in range(2):
-                far = boxes[2].astype(np.float64) if axis == 2 else (boxes[0] if side == 0 else boxes[1])[:, axis].copy()
-                rows = np.argsort(far if side == 0 else -far)
-                if not _outermost(axis, side, rows, boxes, depth, evidence, q, cells, known, bounds, stack, piece):
-                    keep[first:behind] = False
-                    break
-                edge = _interval(boxes[0][piece[0], axis], boxes[1][piece[0], axis], depth, piece[1 + axis])[side]
-                for row in range(first, behind):
-                    beyond = layers[row] - boxes[2][piece[0]] if axis == 2 else 0
-                    if side == 0:
-                        keep[row] = keep[row] and beyond >= 0
-                        if beyond == 0:
-                            lower[row, axis] = max(lower[row, axis], edge)
-                    else:
-                        keep[row] = keep[row] and beyond <= 0
-                        if beyond == 0:
-                            upper[row, axis] = min(upper[row, axis], edge)
-                    # What only touches the cut lies in other cells, too.
-                    keep[row] = keep[row] and lower[row, axis] < upper[row, axis]
-
-
-def trim(
-    boxes: Boxes,
-    labels: npt.NDArray[np.int64],
-    layers: npt.NDArray[np.int64],
-    beams: Beams,
-    occupied: CellIndex,
-    map_error_m: float,
-    depth: int,
-) -> tuple[Boxes, npt.NDArray[np.bool_]]:
-    """Return the cells of hypotheses, cut to the finest outer pieces that may hold a consistent pose, and which of them are left.
+def _trim(start, stop, layers, cells, outer, wanted, depth, evidence, q, tables, headings, cut, kept):  # type: ignore[no-untyped-def]
+    """Cut the wanted cells of layers start … stop - 1, and write which of them hold a piece.
 
     Parameters
     ----------
-    boxes
-        Cells of one lattice.
-    labels
-        The hypothesis of each.
     layers
-        The layer of each, counted from the lowest one of its hypothesis.
+        Which rows belong to each layer: order[edges[i]] … order[edges[i + 1] - 1].
+    headings
+        For each layer what `_reach` knows of its headings, from one call to the next.
+    """
+    resolution, bordered, origin, domain = tables
+    row_limit = np.int32(bordered.shape[0] - 1)
+    column_limit = np.int32(bordered.shape[1] - 1 - 2 * BORDER)
+    grid = (resolution, bordered.reshape(-1)[BORDER:], np.uint64(bordered.shape[1]), row_limit, column_limit, origin, domain)
+    order, edges = layers
+    known, bounds = headings
+    failing = np.arange(len(evidence[0]))
+    stack = np.empty((8 * (depth + 1), 4), dtype=np.int64)
+    cell, reached = np.empty((2, 3)), np.empty((2, 3))
+    for layer in range(start, stop):
+        for at in range(edges[layer], edges[layer + 1]):
+            row = order[at]
+            if wanted[row]:
+                cell[0, :], cell[1, :] = cells[0][row], cells[1][row]
+                of_layer = (known[layer], bounds[layer], failing)
+                kept[row] = _reach(cell, outer[row], depth, evidence, q, grid, of_layer, stack, reached)
+                cut[0][row], cut[1][row] = reached[0], reached[1]
+
+
+def trim(
+    cells: Boxes, lattice: Lattice, sheets: Sheets, beams: Beams, map_error_m: float, depth: int
+) -> tuple[Boxes, npt.NDArray[np.bool_]]:
+    """Return cells whose outer faces are moved to the outermost pieces that may hold a consistent pose, and which of them are left.
+
+    A cell without such a piece is dropped, and the faces of its neighbours behind it are moved, too. A hypothesis that would fall apart so
+    keeps all of its cells, cut to the hull of what was found in them.
+
+    Parameters
+    ----------
+    cells
+        Different cells of the finest level of the lattice.
+    lattice
+        The lattice.
+    sheets
+        The tables of the map.
     beams
         The evidence of the scan, and how many of its beams may be bad.
-    occupied
-        The cells that beams may end at.
     map_error_m
         How far the map may be wrong.
     depth
         How often cells are halved along each axis.
     """
-    order = np.argsort(labels, kind="stable")
-    edges = np.append(np.flatnonzero(np.append(True, np.diff(labels[order]) != 0)), len(order))
-    lower, upper, keep = boxes.lower[order], boxes.upper[order], np.ones(len(order), dtype=np.bool_)
+    lower, upper, kept = cells.lower.copy(), cells.upper.copy(), np.ones(len(cells), dtype=np.bool_)
+    order = group_rows(lower[:, 2], upper[:, 2])
+    edges = np.flatnonzero(np.concatenate([[True], np.diff(lower[order, 2]) != 0.0, [True]]))
     evidence = (beams.ends, beams.directions, beams.errors, map_error_m)
-    grid = (occupied.resolution, occupied.bordered, occupied.origin)
-    run(_trim, len(edges) - 1, edges, lower, upper, layers[order], depth, evidence, beams.outliers, grid, keep, minimum=1)
-    back = np.argsort(order)
-    return Boxes(lower[back], upper[back]), keep[back]
+    headings = (np.zeros((len(edges) - 1, 2 << depth), dtype=np.bool_), np.empty((len(edges) - 1, 2 << depth, len(beams.ends), 4)))
+    outer = np.zeros((len(cells), 2, 3), dtype=np.bool_)
+    places = [(key, rows) for key, rows, _ in sheets.parts(cells)]
+    while kept.any():
+        faces = outer.copy()
+        faces[kept] = outer_faces(cells[kept], lattice)
+        uncovered = (faces != outer).any(axis=(1, 2))
+        if not uncovered.any():
+            _mend(cells, lattice, lower, upper, kept)
+            break
+        outer = faces
+        for key, rows in places:
+            wanted = np.zeros(len(cells), dtype=np.bool_)
+            wanted[rows] = uncovered[rows]
+            occupied, domain = sheets[key].occupied, sheets[key].domain
+            tables = (occupied.resolution, occupied.bordered, occupied.origin, (domain.table, domain.origin, domain.inverse_resolution))
+            bounds = (cells.lower, cells.upper), outer, wanted, depth, evidence, beams.outliers, tables, headings, (lower, upper), kept
+            run(_trim, len(edges) - 1, (order, edges), *bounds, minimum=4)
+    return Boxes(lower, upper), kept
+
+
+def _mend(cells: Boxes, lattice: Lattice, lower: FloatArray, upper: FloatArray, kept: npt.NDArray[np.bool_]) -> None:
+    """Give hypotheses that have fallen apart their cells back, as far as these lie in the hull of what was found in them."""
+    parts = cluster(Boxes(lower[kept], upper[kept]), circular=(2,))
+    if len(parts) == 1:
+        return
+    whole = cluster(cells, circular=(2,))
+    labels = whole.labels
+    turns = (lattice.layer(cells) - lattice.layer(whole.hulls)[labels]) % lattice.layers
+    for label in np.flatnonzero(np.bincount(np.unique(np.stack([labels[kept], parts.labels]), axis=1)[0]) > 1):
+        found = kept & (labels == label)
+        low, high = lower[found].min(axis=0), upper[found].max(axis=0)
+        first, last = turns[found].min(), turns[found].max()
+        low[2], high[2] = lower[found & (turns == first), 2].min(), upper[found & (turns == last), 2].max()
+        rows = np.flatnonzero((labels == label) & (first <= turns) & (turns <= last))
+        lowest, highest = np.tile(low, (len(rows), 1)), np.tile(high, (len(rows), 1))
+        lowest[turns[rows] != first, 2], highest[turns[rows] != last, 2] = -np.inf, np.inf
+        lower[rows], upper[rows] = np.maximum(cells.lower[rows], lowest), np.minimum(cells.upper[rows], highest)
+        kept[rows] = (lower[rows] < upper[rows]).all(axis=1)

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from ial.study.containment import Containment as Containment
     from ial.study.domain import Domain as Domain
     from ial.study.good_beams import bad_beams as bad_beams
+    from ial.study.good_beams import consistent as consistent
     from ial.study.good_beams import good_beams as good_beams
     from ial.study.obstacles import Obstacles as Obstacles
     from ial.study.used_beams import UsedBeams as UsedBeams
@@ -22,7 +23,7 @@ else:
             "blocked_rays": ("blocked_rays",),
             "containment": ("Containment",),
             "domain": ("Domain",),
-            "good_beams": ("bad_beams", "good_beams"),
+            "good_beams": ("bad_beams", "consistent", "good_beams"),
             "obstacles": ("Obstacles",),
             "used_beams": ("UsedBeams",),
         },

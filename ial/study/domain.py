@@ -32,16 +32,17 @@ class Domain:
     def holds(self, poses: FloatArray) -> BoolArray:
         """Return which poses in the grid's frame, shape (n, 2 or more), are certainly in the domain: whichever way their numbers round."""
         slack = slack_m(poses[:, :2])
-        held = np.ones(len(poses), dtype=np.bool_)
-        for aside in ((-slack, -slack), (slack, -slack), (-slack, slack), (slack, slack)):
-            cells = np.floor((poses[:, :2] + aside) / self._resolution).astype(np.int64)
-            column, row = cells.T
-            inside = (row >= 0) & (row < self._allowed.shape[0]) & (column >= 0) & (column < self._allowed.shape[1])
-            held &= inside
-            held[held] = self._allowed[row[held], column[held]]
-            if self._radius_m:
-                held[held] = self._roomy(cells[held])
-        return held
+        corners = np.array([(-slack, -slack), (slack, -slack), (-slack, slack), (slack, slack)])
+        cells = np.floor((poses[:, None, :2] + corners) / self._resolution).astype(np.int64)
+        column, row = cells[..., 0], cells[..., 1]
+        inside = (row >= 0) & (row < self._allowed.shape[0]) & (column >= 0) & (column < self._allowed.shape[1])
+        inside[inside] = self._allowed[row[inside], column[inside]]
+        held = inside.all(axis=1)
+        if self._radius_m and held.any():
+            names, which = np.unique(row[held] * self._allowed.shape[1] + column[held], return_inverse=True)
+            roomy = self._roomy(np.stack([names % self._allowed.shape[1], names // self._allowed.shape[1]], axis=1))
+            held[held] = roomy[which].all(axis=1)
+        return np.asarray(held)
 
     def _roomy(self, cells: npt.NDArray[np.int64]) -> BoolArray:
         """Return in which cells, (column, row), a place is certainly far enough from every occupied cell."""

@@ -34,10 +34,18 @@ def bad_beams(beams: UsedBeams, poses: FloatArray, obstacles: Obstacles) -> npt.
     bad
         Shape (m,). No fewer than are bad.
     """
-    bad = np.zeros((len(poses), len(beams)), dtype=np.bool_)
-    bad[:, : len(beams.readings)] = ~good_beams(beams, poses, obstacles)
-    bad[:, beams.rays] |= blocked_rays(beams, poses, obstacles)
-    return np.asarray(bad.sum(axis=1))
+    return _count(beams, poses, obstacles, good_beams(beams, poses, obstacles))
+
+
+def consistent(beams: UsedBeams, poses: FloatArray, obstacles: Obstacles, outliers: int) -> BoolArray:
+    """Return at which poses certainly at most so many beams are bad, bool of shape (m,): `bad_beams`, without work that changes nothing."""
+    found = np.zeros(len(poses), dtype=np.bool_)
+    rows = np.flatnonzero((~_hopeful(beams, poses, obstacles)).sum(axis=1) <= outliers)
+    good = good_beams(beams, poses[rows], obstacles)
+    few = (~good).sum(axis=1) <= outliers
+    rows, good = rows[few], good[few]
+    found[rows] = _count(beams, poses[rows], obstacles, good) <= outliers
+    return found
 
 
 def good_beams(beams: UsedBeams, poses: FloatArray, obstacles: Obstacles) -> BoolArray:
@@ -47,21 +55,34 @@ def good_beams(beams: UsedBeams, poses: FloatArray, obstacles: Obstacles) -> Boo
     out, some motion within its error put its end within the map's error of a closed occupied cell. All readings along a line are tried at
     once, as a segment; bearings are tried a tenth of a cell apart, and of the motions the recorded one and the corners of their box.
     """
-    hits = len(beams.readings)
-    origins, angles = (each[:hits] for each in beams.seen(beams.turns(_LINE_CELLS * obstacles.resolution)))
+    origins, angles = _lines(beams, obstacles)
     farthest = beams.readings + beams.bounds.range_error_m
-    good = np.zeros((len(poses), hits), dtype=np.bool_)
-    hopeful = _hopeful(poses, _points(origins, angles, farthest), beams, obstacles)
+    nearest = np.maximum(beams.readings - beams.bounds.range_error_m, 0.0)
+    hopeful = _hopeful(beams, poses, obstacles)
+    good = np.zeros_like(hopeful)
     for some in (slice(0, 1), slice(1, None)):  # most beams are good by the recorded numbers
         lines = angles[:, some].shape[1]
         pose, hit = np.nonzero(hopeful & ~good)
         for part in portions(len(pose), lines):
             p, h = pose[part], hit[part]
             at, heading = in_grid(poses[p], origins[h, some], angles[h, some])
-            nearest = np.maximum(beams.readings[h] - beams.bounds.range_error_m, 0.0)
-            starts, ends = (_points(at, heading, reading).reshape(-1, 2) for reading in (nearest, farthest[h]))
+            starts, ends = (_points(at, heading, reading[h]).reshape(-1, 2) for reading in (nearest, farthest))
             good[p, h] = obstacles.near(starts, ends, beams.bounds.map_error_m).reshape(len(p), lines).any(axis=1)
     return good
+
+
+def _count(beams: UsedBeams, poses: FloatArray, obstacles: Obstacles, good: BoolArray) -> npt.NDArray[np.intp]:
+    """Return how many beams may be bad at each pose, given which hits are good."""
+    bad = np.zeros((len(poses), len(beams)), dtype=np.bool_)
+    bad[:, : len(beams.readings)] = ~good
+    bad[:, beams.rays] |= blocked_rays(beams, poses, obstacles)
+    return np.asarray(bad.sum(axis=1))
+
+
+def _lines(beams: UsedBeams, obstacles: Obstacles) -> tuple[FloatArray, FloatArray]:
+    """Return from where and which way the hits may have gone, in the base frame: of shape (hits, k, 2) and (hits, k)."""
+    origins, angles = beams.seen(beams.turns(_LINE_CELLS * obstacles.resolution))
+    return origins[: len(beams.readings)], angles[: len(beams.readings)]
 
 
 def _points(origins: FloatArray, angles: FloatArray, readings: FloatArray) -> FloatArray:
@@ -69,11 +90,12 @@ def _points(origins: FloatArray, angles: FloatArray, readings: FloatArray) -> Fl
     return np.asarray(origins + readings[:, None, None] * np.stack([np.cos(angles), np.sin(angles)], axis=-1))
 
 
-def _hopeful(poses: FloatArray, ends: FloatArray, beams: UsedBeams, obstacles: Obstacles) -> BoolArray:
-    """Return which hits have an occupied cell within reach of all that they may mean, by cells; ends of shape (hits, k, 2)."""
+def _hopeful(beams: UsedBeams, poses: FloatArray, obstacles: Obstacles) -> BoolArray:
+    """Return which hits have an occupied cell within reach of all that they may mean, by cells; bool of shape (m, hits)."""
+    ends = _points(*_lines(beams, obstacles), beams.readings)
     aside = np.abs(ends - ends[:, :1]).sum(axis=2).max(axis=1, initial=0.0)
     reach = (aside + 2.0 * beams.bounds.range_error_m + beams.bounds.map_error_m) / obstacles.resolution
     tried = reach <= _FAR_CELLS
-    ring = int(np.ceil(reach[tried].max(initial=0.0))) + 1
+    ring = int(reach[tried].max(initial=0.0)) + 1
     at, _ = in_grid(poses, np.broadcast_to(ends[:, 0], (len(poses), *ends[:, 0].shape)), np.zeros((len(poses), len(ends))))
     return np.asarray(~tried | obstacles.any_around(at, ring))

@@ -71,7 +71,7 @@ class Obstacles:
         middles = 0.5 * (starts + ends)
         reach = 0.5 * float(np.abs(ends - starts).max()) + distance
         slack = slack_m(starts, ends, distance)
-        ring = int(np.ceil(reach / self.resolution)) + 1
+        ring = int(reach / self.resolution) + 1
         for rows in portions(len(starts), (2 * ring + 1) ** 2):
             row, cells = self.occupied_around(middles[rows], ring)
             corners = cells.T.astype(np.float64)
@@ -102,12 +102,20 @@ class Obstacles:
         pad = (len(mask) - len(self.mask)) // 2
         last = np.array(self.mask.shape[::-1]) + ring
         at = np.clip(np.floor(points / self.resolution), -ring - 1, last).astype(np.intp)
-        rows = np.flatnonzero(any_near[at[:, 1] + pad, at[:, 0] + pad])
-        steps = np.stack(np.meshgrid(*2 * [np.arange(-ring, ring + 1)], indexing="xy"), axis=-1).reshape(-1, 2)
         width = mask.shape[1]
-        corner = (at[rows, 1] + pad) * width + at[rows, 0] + pad
-        which, step = np.nonzero(mask.reshape(-1)[corner[:, None] + steps[:, 1] * width + steps[:, 0]])
-        return rows[which], at[rows[which]] + steps[step]
+        middle = (at[:, 1] + pad) * width + at[:, 0] + pad
+        rows = np.flatnonzero(any_near.reshape(-1)[middle])
+        # Many points lie in one cell: each cell is looked around once.
+        middles, which = np.unique(middle[rows], return_inverse=True)
+        side = np.arange(-ring, ring + 1)
+        offsets = (side[:, None] * width + side).reshape(-1)
+        centre, step = np.nonzero(mask.reshape(-1)[middles[:, None] + offsets])
+        count = np.bincount(centre, minlength=len(middles))
+        first = np.cumsum(count) - count
+        row = np.repeat(np.arange(len(rows)), count[which])
+        found = first[which[row]] + np.arange(len(row)) - np.repeat(np.cumsum(count[which]) - count[which], count[which])
+        cell = middles[centre[found]] + offsets[step[found]]
+        return rows[row], np.stack([cell % width - pad, cell // width - pad], axis=1)
 
     def any_around(self, points: FloatArray, ring: int) -> BoolArray:
         """Return whether a cell is occupied so many cells around the one that holds each point, shape (...); points (..., 2)."""

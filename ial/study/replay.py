@@ -54,7 +54,7 @@ def replay(recording: Recording, localizer: Localizer, speed: float | None = 1.0
     late = limited = scans = 0
     first = last = 0
     answered = begun = time.monotonic()
-    for step in steps(recording, localizer.config.bounds.motion):
+    for step in steps(recording, localizer.config.bounds.motion, no_return=localizer.config.free_space.no_return):
         if not scans:
             first, begun = step.stamp_ns, time.monotonic()
         due = time.monotonic() if speed is None else begun + 1e-9 * (step.stamp_ns - first) / speed

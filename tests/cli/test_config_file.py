@@ -110,6 +110,8 @@ def test_an_empty_file_changes_nothing(tmp_path: Path) -> None:
         (["max_beams=["], {}, r"--set max_beams=\[: '\[' is no value"),
         ([], {"IAL_MAX_BEAMS": "-3"}, "IAL_MAX_BEAMS: max_beams is -3: "),
         ([], {"IAL_MAXBEAMS": "3"}, "IAL_MAXBEAMS is no setting of ial; .*did you mean IAL_MAX_BEAMS"),
+        (["motion.rotation.base=1"], {}, "the key .motion.rotation.base. has become two: per_scan, .*per_message"),
+        ([], {"IAL_MOTION_TRANSLATION_BASE": "1"}, "variable IAL_MOTION_TRANSLATION_BASE has become two: per_scan, .*per_message"),
         ([], {"IAL_XYZZY": "3"}, "IAL_XYZZY is no setting of ial; unset it"),
     ],
 )

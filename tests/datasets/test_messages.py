@@ -234,3 +234,18 @@ def test_the_robot_in_the_corridor_is_not_lost() -> None:
     for answer, x in zip(answers, (3.0, 3.0 + TRUTH), strict=True):
         assert answer.poses.contains(Pose(x, 1.0, 0.0))
         assert answer.status != "lost"
+
+
+def test_a_scan_that_comes_after_its_messages_are_forgotten_is_skipped_whatever_it_says_about_itself() -> None:
+    late = scan(STAMPS[5], odometry={"x": 0.5, "y": 0.0, "theta": 0.0, "error_m": 0.1})
+    stream = ScanStream([*corridor((STAMPS[20], scan(STAMPS[20]))), late])
+    check(motion(stream))
+    assert dict(stream.skipped) == {"no odometry": 1}
+
+
+def test_odometry_that_was_looked_up_is_no_message() -> None:
+    at = {"x": 0.65, "y": 0.0, "theta": 0.0, "error_m": 0.06, "error_rad": 0.0}
+    lines = corridor((STAMPS[6] + 0.01, scan(STAMPS[6] + 0.01, odometry=at)))
+    first, middle, last = ScanStream(lines).readings()
+    assert middle.odometry == Odometry(0.65, 0.0, error_m=0.06)
+    assert [len(reading.messages) for reading in (first, middle, last)] == [0, 6, 33]

@@ -6,7 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from ial.datasets.in_memory import InMemoryRecording
 from ial.datasets.motion import ErrorBound, MotionBounds
+from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.recording import Reading, steps
 from ial.datasets.scan import BeamClass, Mounting
 from ial.datasets.simulator import Lidar, SensorErrors, Simulation, simulate
@@ -80,6 +82,24 @@ def test_every_true_motion_lies_in_its_interval(grid: OccupancyGrid, adversarial
             if previous is not None and step.motion is not None:
                 assert step.motion.contains(path[previous].inverse() @ path[step.index])
             previous = step.index
+
+
+def test_many_messages_a_scan_keep_their_bounds_each(grid: OccupancyGrid) -> None:
+    path = random_walk(grid, 25, 2)
+    bounds = MotionBounds(ErrorBound(0.002, 0.1, 0.05, 0.01, 0.02), ErrorBound(0.001, 0.02, 0.1, 0.01, 0.01))
+    run = simulate(grid, path, LIDAR, SensorErrors(adversarial=True), bounds, 3, messages=8)
+    assert {len(reading.messages) for reading in list(run.recording.readings())[1:]} == {7}
+    for every in (1, 3):
+        chosen = list(steps(run.recording, bounds, every=every))
+        assert all(
+            step.motion.contains(path[step.index - every].inverse() @ path[step.index]) for step in chosen if step.motion is not None
+        )
+    # The net motion alone would not do.
+    readings = [replace(reading, messages=OdometryPath.of()) for reading in run.recording.readings()]
+    net = list(steps(InMemoryRecording("net", readings), bounds))
+    assert not all(step.motion.contains(path[step.index - 1].inverse() @ path[step.index]) for step in net if step.motion is not None)
+    with pytest.raises(ConfigError, match="at least one odometry message"):
+        simulate(grid, path, LIDAR, SensorErrors(), bounds, 3, messages=0)
 
 
 def test_adversarial_odometry_comes_near_its_bounds(grid: OccupancyGrid) -> None:

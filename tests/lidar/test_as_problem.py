@@ -39,7 +39,7 @@ def localization(grid: OccupancyGrid, scan: LaserScan, bounds: Bounds, outliers:
     """Return the poses (x, y, θ) in the grid's frame at which at most so many beams of a scan are bad."""
     hits = scan.classes() == BeamClass.HIT
     reading, (first, last) = scan.ranges[hits].astype(np.float64), scan.bearings()
-    ranges = Boxes.around(reading, bounds.range_error_m + scan.range_slack()[hits])
+    ranges = Boxes.around(reading, scan.range_slack()[hits]) + Interval(-bounds.range_error_m, bounds.range_error_m)
     bearings = Boxes.column(first[hits], last[hits]) + Interval(-bounds.bearing_error_rad, bounds.bearing_error_rad)
     off = Interval(-bounds.map_error_m, bounds.map_error_m)
     walls = CellContractor(CellIndex(grid.mask(OCCUPIED), grid.resolution))

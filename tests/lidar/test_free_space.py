@@ -149,17 +149,13 @@ def test_a_scan_of_beams_without_return_alone_keeps_every_consistent_pose(outlie
     beams = scan_beams(scan, config)
     assert (len(beams), len(beams.ends), estimate.beams) == (30, 0, 30)
     assert estimate.status == "ambiguous"
-    used, obstacles = UsedBeams.of(scan, config), Obstacles(grid)
-    random, kept, excluded = np.random.default_rng(0), 0, 0
-    while kept < 200:
-        pose = Pose(*random.uniform(0.0, (8.0, 6.0, 6.2)).tolist())
-        if grid.cells[int(pose.y / 0.1), int(pose.x / 0.1)] == FREE:
-            (bad,) = bad_beams(used, np.array([[pose.x, pose.y, pose.theta]]), obstacles)
-            consistent = bad <= estimate.outliers_allowed
-            kept += consistent
-            excluded += not estimate.poses.contains(pose)
-            assert estimate.poses.contains(pose) or not consistent
-    assert excluded > 20 or outliers == 29
+    poses = np.random.default_rng(0).uniform(0.0, (8.0, 6.0, 6.2), (600, 3))
+    poses = poses[grid.cells[tuple((poses[:, 1::-1] / 0.1).astype(int).T)] == FREE]
+    consistent = bad_beams(UsedBeams.of(scan, config), poses, Obstacles(grid)) <= estimate.outliers_allowed
+    contained = np.array([estimate.poses.contains(Pose(*pose)) for pose in poses.tolist()])
+    assert consistent.sum() > 100
+    assert contained[consistent].all()
+    assert outliers == 29 or (~contained).sum() > 20
 
 
 @pytest.mark.parametrize(

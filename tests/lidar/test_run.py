@@ -1,17 +1,23 @@
 import math
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from ial.contractors.boxes import Boxes
+from ial.datasets.in_memory import InMemoryRecording
 from ial.datasets.motion import ErrorBound, MotionBounds
-from ial.datasets.recording import steps
+from ial.datasets.odometry import Odometry
+from ial.datasets.recording import Reading, steps
+from ial.datasets.scan import LaserScan
 from ial.datasets.simulator import Lidar, SensorErrors, Simulation, simulate
 from ial.datasets.walk import random_walk
 from ial.errors import RecordingError
-from ial.lidar.config import Bounds, LocalizerConfig, Precision
+from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig, Precision
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
 from ial.maps.floor_plan import floor_plan
+from ial.pose import Pose
 
 MOTION = MotionBounds(ErrorBound(0.05, 0.1, 0.0), ErrorBound(0.03, 0.0, 0.1))
 CONFIG = LocalizerConfig(bounds=Bounds(0.03, 0.0, 0.01, MOTION), outliers=2, precision=Precision(0.2, 0.1))
@@ -65,3 +71,13 @@ def test_a_start_that_is_given_is_used(simulation: Simulation) -> None:
     region = Boxes.of([(truth.x - 0.2, truth.x + 0.2), (truth.y - 0.2, truth.y + 0.2), (truth.theta - 0.2, truth.theta + 0.2)])
     _, first = next(localize(simulation.recording, Localizer(GRID, config=CONFIG, initial=region)))
     assert first.status == "localized"
+
+
+def test_a_recording_in_which_no_beam_returns_is_usable_only_where_such_beams_are_used() -> None:
+    scans = [LaserScan(stamp, np.full(30, np.inf, dtype=np.float32), -3.0, 0.2, range_max=1.0) for stamp in (1, 2)]
+    recording = InMemoryRecording("an open place", [Reading(i, scan.stamp_ns, Odometry.of(Pose()), scan) for i, scan in enumerate(scans)])
+    used = replace(CONFIG, free_space=FreeSpace(no_return_m=0.5))
+    assert [estimate.uninformative for _, estimate in localize(recording, Localizer(GRID, config=used))] == [False, False]
+    for free_space in (FreeSpace(), FreeSpace(use=False, no_return_m=0.5)):
+        with pytest.raises(RecordingError, match="usable beam"):
+            list(localize(recording, Localizer(GRID, config=replace(CONFIG, free_space=free_space))))

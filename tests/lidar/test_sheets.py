@@ -1,5 +1,6 @@
 """A map in sheets gives the answers of the map in one piece."""
 
+import itertools
 import math
 from dataclasses import replace
 from functools import cache
@@ -12,10 +13,10 @@ from ial.datasets.motion import ErrorBound, MotionBounds
 from ial.datasets.recording import Step, steps
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.datasets.walk import random_walk
-from ial.errors import MapError
+from ial.errors import ConfigError, MapError
 from ial.lidar import sheets
 from ial.lidar.beams import Beams, scan_beams
-from ial.lidar.config import Bounds, LocalizerConfig, Precision
+from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig, Precision
 from ial.lidar.lattice import Lattice
 from ial.lidar.localizer import Localizer
 from ial.lidar.pose_set import PoseSet
@@ -200,3 +201,94 @@ def test_beams_that_reach_across_the_map_are_no_trouble(small_sheets: None) -> N
     ends = np.array([[14.0, 0.0], [0.0, 14.0]])
     model.sheets.reach(Beams(ends, ends / 14.0, np.zeros((2, 2)), 0), 0.01)
     assert model.sheets[0, 0].occupied.table.shape == (301, 301)
+
+
+def test_answers_do_not_depend_on_sheets_where_beams_without_return_see_farther_than_others(
+    small_sheets: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    config = replace(CONFIG, outliers=4, precision=Precision(0.2, 0.1, 0), free_space=FreeSpace(margin_m=0.05, no_return_m=20.0))
+    blocked = 0
+    for pose, step in itertools.islice(zip(*drive(1), strict=True), 0, None, 3):
+        hits = np.where((step.scan.ranges > 1.0) & np.isfinite(step.scan.ranges), np.nan, step.scan.ranges)
+        scan = replace(step.scan, ranges=np.where(step.scan.ranges > 4.0, np.inf, hits))
+        beams = scan_beams(scan, config)
+        assert beams.rays is not None
+        assert beams.rays.lengths.max() > 3.0 * np.hypot(*beams.ends.T).max()
+        region = Boxes.of([(pose.x - 1.0, pose.x + 1.0), (pose.y - 1.0, pose.y + 1.0), (pose.theta, pose.theta + 0.3)])
+        answers = []
+        for cells, using in ((100, config), (1 << 26, config), (1 << 26, replace(config, free_space=FreeSpace(use=False)))):
+            monkeypatch.setattr(sheets, "_ONE_SHEET", cells)
+            answers.append(Localizer(world(), config=using, initial=region).update(None, scan).poses)
+        assert named(answers[0]) == named(answers[1])
+        blocked += len(answers[1]) < len(answers[2])
+    assert blocked >= 2, "rays that tell nothing prove nothing"
+
+
+def corridor(rows: int, columns: int, resolution: float) -> OccupancyGrid:
+    """A closed corridor of so many cells, along the longer side of which walls stand in from either side, irregularly."""
+    cells = np.full((rows, columns), FREE, dtype=np.uint8)
+    cells[[0, -1], :] = cells[:, [0, -1]] = OCCUPIED
+    along = cells if columns >= rows else cells.T
+    random = np.random.default_rng(0)
+    for first in range(20, along.shape[1] - 20, 20):
+        width, depth = random.integers(2, 12), random.integers(1, 4)
+        side = slice(1, 1 + depth) if random.integers(2) else slice(-1 - depth, -1)
+        along[side, first + random.integers(8) :][:, :width] = OCCUPIED
+    return OccupancyGrid(cells, resolution)
+
+
+@pytest.mark.parametrize(
+    ("rows", "columns", "resolution", "position", "one"),
+    [
+        (10, 20_000, 0.05, 0.02, False),
+        (20_000, 10, 0.05, 0.02, False),
+        (10, 65_536, 0.05, 0.1, True),
+        (65_536, 10, 0.0333, 0.02, False),
+        (10, 32_768, 0.05, 0.05, True),
+        (10, 32_769, 0.05, 0.05, False),
+    ],
+)
+def test_a_robot_is_found_near_the_end_of_a_long_map_however_its_cells_are_split(
+    rows: int, columns: int, resolution: float, position: float, one: bool
+) -> None:
+    grid = corridor(rows, columns, resolution)
+    far, middle, wide = (max(rows, columns) - 45.0) * resolution, 5.1 * resolution, 10.0 * resolution
+    searched = (far - 25.0, far + 2.0)
+    pose, region = Pose(far, middle), Boxes.of([searched, (0.0, wide), (-0.1, 0.1)])
+    if rows > columns:
+        pose, region = Pose(middle, far, 1.57), Boxes.of([(0.0, wide), searched, (1.47, 1.67)])
+    bounds = Bounds(0.005, 0.001, 0.005, MOTION)
+    config = LocalizerConfig(bounds=bounds, outliers=0, precision=Precision(position, 0.05, halvings=0))
+    localizer = Localizer(grid, config=config, initial=region)
+    assert localizer.model.sheets.one is one
+    lidar = Lidar(beams=40, angle_min=-math.pi, angle_increment=math.pi / 20.0, range_max=6.0)
+    recording = simulate(grid, [pose, pose], lidar, SensorErrors(0.005, 0.001), MOTION, 1).recording
+    for step in steps(recording, MOTION):
+        found = localizer.update(step.motion, step.scan).poses
+        assert found.contains(pose)
+        assert (np.abs(found.boxes.midpoint()[:, :2] - (pose.x, pose.y)) < 0.3).all()
+
+
+@pytest.mark.parametrize(
+    ("rows", "columns", "resolution", "position", "least"),
+    [(10, 65_536, 0.05, 0.001, "0.00157"), (500, 500, 100.0, 0.01, "0.0367"), (65_536, 10, 1.0, 0.02, "0.0313")],
+)
+def test_a_precision_too_fine_for_the_map_is_refused_with_its_own_numbers(
+    rows: int, columns: int, resolution: float, position: float, least: str
+) -> None:
+    grid = corridor(rows, columns, resolution)
+    with pytest.raises(ConfigError) as refused:
+        Localizer(grid, config=replace(CONFIG, precision=Precision(position)))
+    text = str(refused.value)
+    assert f"precision.position_m is {position:g} m" in text
+    assert f"{columns} × {rows} cells of {resolution:g} m" in text
+    assert f"give a precision.position_m of at least {least} m" in text
+    Localizer(grid, config=replace(CONFIG, precision=Precision(float(least))))
+
+
+def test_beams_that_reach_too_far_for_a_fine_precision_are_refused_with_theirs() -> None:
+    model = Localizer(corridor(3000, 3000, 0.05), config=replace(CONFIG, precision=Precision(0.004))).model
+    ends = np.array([[40.0, 0.0]])
+    model.sheets.reach(Beams(0.2 * ends, ends / 40.0, np.zeros((1, 2)), 0), 0.01)
+    with pytest.raises(ConfigError, match=r"0\.004 m, .* 3000 × 3000 cells of 0\.05 m .* 25 × 25 .* reach 40 m, .* at least 0\.\d+ m"):
+        model.sheets.reach(Beams(ends, ends / 40.0, np.zeros((1, 2)), 0), 0.01)

@@ -148,7 +148,7 @@ def test_neighbours_of_different_turns_touch_and_their_hull_has_the_form() -> No
 
 def test_a_checkpoint_takes_any_turn_and_no_other_start(tmp_path: Path) -> None:
     localizer, mark = Localizer(room(), config=CONFIG, initial=around(0)), Mark(0, 0, Odometry.of(Pose()))
-    Checkpoint(mark, PoseSet(around(-1)), 0, fingerprint(localizer)).save(tmp_path / "state")
+    Checkpoint(mark, PoseSet(around(-1)), None, fingerprint(localizer)).save(tmp_path / "state")
     checkpoint = Checkpoint.load(tmp_path / "state", Localizer(room(), config=CONFIG, initial=around(0)))
     assert checkpoint is not None
     assert_form(checkpoint.poses.boxes)

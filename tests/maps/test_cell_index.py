@@ -124,6 +124,23 @@ def test_touching_an_edge_is_meeting(resolution: float, column: int) -> None:
     assert (~CellContractor(index).contract(box).empty).tolist() == [True] * 4 + [False] * 2
 
 
+@pytest.mark.parametrize("resolution", [*RESOLUTIONS, 0.0333])
+@pytest.mark.parametrize(("split", "column"), [(1, 65_536), (5, 327_680), (64, 2**22)])
+def test_touching_an_edge_far_from_the_corner_of_a_map_is_meeting(resolution: float, split: int, column: int) -> None:
+    """Also where cells are parts of wider ones, so that their width is rounded."""
+    random, width = np.random.default_rng(column), Fraction(resolution) / split
+    index = CellIndex(np.ones((1, 10), np.bool_), resolution / split, origin=(0, column - 10), whole=(1, column))
+    for _ in range(100):
+        left, right = (column - 10) * width, column * width
+        before, behind = float(left), float(right)  # the doubles beside them that still lie in the cells
+        before = before if Fraction(before) >= left else math.nextafter(before, math.inf)
+        behind = behind if Fraction(behind) <= right else math.nextafter(behind, -math.inf)
+        far = float(random.uniform(0.0, 3.0)) * resolution
+        assert index.meet(Boxes.of([(before - far, before), (0.0, 0.0)], [(behind, behind + far), (0.0, 0.0)])).all()
+        beside = float(3 * ROUNDINGS * column * width)
+        assert not index.meet(Boxes.of([(before - far - beside, before - beside), (0.0, 0.0)], [(behind + beside, 1e9), (0.0, 0.0)])).any()
+
+
 def test_count_is_a_sum_over_the_cells() -> None:
     mask = np.random.default_rng(5).random((5, 7)) < 0.4
     table = CellIndex(mask, 0.1).table

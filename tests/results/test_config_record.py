@@ -8,7 +8,7 @@ def test_the_keys_are_those_of_a_configuration_file() -> None:
     record = config_record(LocalizerConfig())
     assert {"range_error_m", "bearing_error_rad", "map_error_m", "outliers", "max_boxes", "max_beams", "domain"} <= set(record)
     assert set(record["motion"]) == {"translation", "rotation", "sideways"}
-    assert list(record["motion"]["rotation"]) == ["base", "per_metre", "per_radian"]
+    assert list(record["motion"]["rotation"]) == ["per_message", "per_metre", "per_radian", "per_second", "per_scan"]
     assert set(record["localized_size"]) == {"position_m", "heading_rad"}
     assert set(record["precision"]) == {"position_m", "heading_rad", "halvings"}
 
