@@ -151,11 +151,10 @@ def reaches(walls, lower, upper, back, table, links, margin):  # type: ignore[no
     found = np.empty(count)
     sides, fronts, spans, cuts = np.empty((corners, 2)), np.empty((corners, 2)), np.empty((corners, 2)), np.empty((corners, 2))
     for row in range(count):
-        shift = _PI if back[row] else 0.0
+        shift = _PI if back[row] else 0.0  # a rounding or two more, which `sort_out` and `_measure` have room for
         low, high, against_low, against_high = sort_out(walls[row], lower[row, 1] + shift, upper[row, 1] + shift, table)
         found[row] = -1.0 if back[row] or against_low > against_high else 0.0
         if low <= high:
-            low, high = (low - ROUNDINGS * 8.0, high + ROUNDINGS * 8.0) if back[row] else (low, high)
             _measure(walls[row], lower[row, 0], upper[row, 0], low, high, table, links, margin, sides, fronts, spans, cuts)
             found[row] = max(_reach(walls[row], links, sides, spans), 0.0)
     return found

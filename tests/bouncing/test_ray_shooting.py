@@ -28,11 +28,19 @@ def environment(seed: int) -> Environment:
 
 
 def aimed(walls: ExactWalls, random: np.random.Generator, wall: int, part: float) -> float:
-    """Return a heading at random, or the double nearest to the direction of a corner, or one beside it; of any turn."""
-    if random.integers(2):
+    """Return a heading at random, or the double nearest to the direction of a corner, or one beside it; of any turn.
+
+    Or the direction of a point of the next wall or the one before: from very near their corner, such a ray is almost parallel to the wall.
+    """
+    kind = random.integers(3)
+    if kind == 0:
         return float(random.uniform(-7.0, 7.0))
+    target = random.integers(len(walls.starts))
+    if kind == 1:
+        corner = walls.starts[wall] if part < 0.5 else walls.ends[wall]
+        target = (walls.ends if part < 0.5 else walls.starts).index(corner)
     with mpmath.workdps(DIGITS):
-        (x, y), (cx, cy) = walls.point(wall, part), walls.starts[random.integers(len(walls.starts))]
+        (x, y), (cx, cy) = walls.point(wall, part), walls.point(target, float(random.random() if kind == 1 else 0.0))
         heading = float(mpmath.atan2(cy - y, cx - x) + 2 * mpmath.pi * int(random.integers(-1, 2)))
     for _ in range(random.integers(3)):
         heading = float(np.nextafter(heading, random.choice([-9.0, 9.0])))
@@ -103,6 +111,27 @@ def test_what_one_ray_hits_is_in_what_its_beam_hits(seed: int) -> None:
         near, far = (float(np.nextafter(float(way), side)) for side in (0.0, np.inf))
         assert holds(shot(walls, wall, lower, upper, near, far), hit, there)
         assert reach(walls, wall, lower, upper) >= way
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_a_wall_that_stops_some_rays_of_a_beam_does_not_stop_the_others(seed: int) -> None:
+    """From one arm of a corner to the other and beyond its end: the walls behind the start close the chain of walls, and stop no ray."""
+    random = np.random.default_rng(seed)
+    room, corner = (
+        tuple((Fraction(x), Fraction(y)) for x, y in ring)
+        for ring in (((0, 0), (20, 0), (20, 20), (0, 20)), ((5, 5), (9, 5), (9, 6), (6, 6), (6, 9), (5, 9)))
+    )
+    there = Environment((Polygon(room, (corner,)),))
+    walls, exactly = Walls.of(there), ExactWalls.of(there)
+    for wall in range(4, 10):
+        along = float(exactly.angle(wall))
+        for _ in range(30):
+            lower = (random.uniform(0.0, 0.9), along + random.uniform(0.05, 2.9))
+            upper = (random.uniform(lower[0], 1.0), min(along + 3.1, lower[1] + random.uniform(0.0, 1.0)))
+            far = reach(walls, wall, lower, upper)
+            for _ in range(6):
+                hit = exactly.first_hit(wall, float(random.uniform(lower[0], upper[0])), exact(float(random.uniform(lower[1], upper[1]))))
+                assert hit is None or hit[2] <= far
 
 
 @pytest.mark.parametrize("seed", WORLDS)
