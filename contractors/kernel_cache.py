@@ -86,7 +86,7 @@ class KernelCache(_Cache):  # type: ignore[misc]
             return None
         if found is None:
             nowhere = "at every start: no folder can keep them, IAL_CACHE_DIR may name one"
-            _announce("compiling kernels, %s", f"once (to be kept in {folder.path})" if folder.path else nowhere)
+            _announce("compiling kernels, %s", f"once, that were not used before (to be kept in {folder.path})" if folder.path else nowhere)
         return found
 
     def save_overload(self, types: Any, result: Any) -> None:

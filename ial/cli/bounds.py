@@ -30,7 +30,7 @@ def bounds(
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Where to write; out/<recording>-<time> if it is left out.")] = None,
     start: Annotated[int, typer.Option("--from", metavar="K", min=0, help="The first scan, counted from 0.")] = 0,
     stop: Annotated[int | None, typer.Option("--to", metavar="K", min=1, help="The scan to stop before.")] = None,
-    every: Annotated[int, typer.Option(metavar="N", min=1, help="Take every Nth scan.")] = 1,
+    every: Annotated[int, typer.Option(metavar="N", min=1, help="Take the beams of every Nth scan.")] = 1,
     scan_topic: ScanTopics = None,
     odom_topic: OdomTopic = None,
     laser_pose: LaserPose = None,
@@ -45,7 +45,7 @@ def bounds(
     """
     if recording is not None and map_path is None:
         raise ConfigError(f"no map that {recording} belongs to; give --map MAP: a map.yaml, or the recording itself if it holds the map")
-    from ial.cli.bounds_report import lines
+    from ial.cli.bounds_report import doubts, lines
     from ial.cli.config_file import resolve
     from ial.cli.job import Inputs
     from ial.datasets.trajectory import read_tum
@@ -65,9 +65,9 @@ def bounds(
         if truth is None:
             pairs = own_poses(source, grid, resolved, start, stop, every)
         else:
-            pairs = reference_poses(source, read_tum(truth), truth_frame, resolved, start, stop, every)
+            pairs = reference_poses(source, read_tum(truth), truth_frame, resolved, start, stop)  # motion from each scan to the next
         for step, pose in progress(pairs, None, Path(source.name).name):
-            survey.add(step, pose)
+            survey.add(step, pose, beams=(step.index - start) % every == 0)
         if not survey.scans:
             fault = "its stamps do not meet those of the scans" if truth is not None else "the robot was never localized; give --truth"
             raise ConfigError(f"{source.name}: no scan has a reference pose: {fault}")
@@ -76,7 +76,8 @@ def bounds(
         failures = survey.failures
         failures.save(folder.place("failures.npz"))
         draw_failures(folder.place("picture.png"), grid, source.name, failures.cell_m, failures.good, failures.ended, failures.passed)
-        record = {"circular": truth is None, **survey.record(), "suggestion": config_record(suggestion)}
+        steps_of = 1 if truth is not None else every  # scans
+        record = {"circular": truth is None, "steps_of": steps_of, **survey.record(), "suggestion": config_record(suggestion)}
         record = folder.conclude("bounds.json", record)
     if replaces:
         remark("note", f"{shown(folder_path)}: these results are in the place of those of an earlier run", "cyan")
@@ -85,4 +86,6 @@ def bounds(
         return
     for line in lines(record, resolved):
         say(line)
+    for line in doubts(record):
+        remark("warning", line, "yellow")
     say(f"results in {shown(folder_path)}; use the bounds with --config {shown(folder_path / 'config.yaml')}")

@@ -7,6 +7,9 @@ from typing import Any
 from ial.lidar.config import LocalizerConfig
 from ial.results.config_record import config_record
 
+_MOST_BAD = 0.4  # of the beams of a scan; in a map of another place three in four are bad
+_FEW_STEPS = 300  # of which three break what holds in 99 %
+
 
 def lines(record: Mapping[str, Any], config: LocalizerConfig) -> Iterator[str]:
     """Yield the lines to print.
@@ -18,7 +21,7 @@ def lines(record: Mapping[str, Any], config: LocalizerConfig) -> Iterator[str]:
     config
         The configuration that was tried.
     """
-    own = "the localizer's own poses: circular, beams look better than they are, and motions worse"
+    own = "the localizer's own poses, which is circular: beams look better than they are"
     reference = own if record["circular"] else "the reference"
     yield f"{record['scans']} scans, measured against {reference}"
     yield ""
@@ -41,8 +44,30 @@ def lines(record: Mapping[str, Any], config: LocalizerConfig) -> Iterator[str]:
     yield ""
     before, after = config_record(config), record["suggestion"]
     changed = list(_changes(before, after))
-    yield "suggested, to hold in 99 % of the scans and of the steps:" if changed else "nothing to change"
+    yield "suggested, so that 99 % of these scans and of these steps hold:" if changed else "nothing to change"
     yield from changed
+
+
+def doubts(record: Mapping[str, Any]) -> Iterator[str]:
+    """Yield what speaks against using the suggestion.
+
+    Parameters
+    ----------
+    record
+        What ``bounds.json`` holds.
+    """
+    if record["bad_share_of_a_scan"]["0.5"] > _MOST_BAD:
+        yield (
+            f"in half of the scans more than {_MOST_BAD:.0%} of the beams are bad: the reference, its frame (--truth-frame) or the map "
+            "probably does not belong to this recording, and then nothing that is suggested means anything"
+        )
+    if record["steps_of"] > 1 and record["motion"]["steps"]:
+        yield (
+            f"the motion was measured over steps of {record['steps_of']} scans, which are long: bounds for these may be too small from one "
+            "scan to the next; measure without --every, or with --truth, before you use them there"
+        )
+    if 0 < record["motion"]["steps"] < _FEW_STEPS:
+        yield f"the motion was measured in {record['motion']['steps']} steps only, too few for what holds in 99 % of all"
 
 
 def _changes(before: Mapping[str, Any], after: Mapping[str, Any], indent: str = "  ") -> Iterator[str]:

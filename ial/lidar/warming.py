@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 
+from ial.contractors.boxes import Boxes
 from ial.datasets.in_memory import InMemoryRecording
 from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_buffer import OdometryBuffer
@@ -17,6 +18,7 @@ from ial.pose import Pose
 
 _SIDE = 80  # cells
 _CELL_M = 0.05
+_START = Boxes.around([(1.8, 4.7, 4.0)], [0.5, 0.5, 0.2])  # the middle of the room, with headings beyond π
 
 
 def warm(config: LocalizerConfig | None = None) -> None:
@@ -31,9 +33,11 @@ def warm(config: LocalizerConfig | None = None) -> None:
     for outliers in (config.outliers, 0.1, "auto"):
         for use in (True, False):
             free_space = dataclasses.replace(config.free_space, use=use)
-            localizer = Localizer(_room(), config=dataclasses.replace(config, outliers=outliers, free_space=free_space))
-            for step in steps(_recording(), config.bounds.motion):
-                localizer.update(step.motion, step.scan)
+            chosen = dataclasses.replace(config, outliers=outliers, free_space=free_space)
+            for grid, initial in ((_room(), None), (dataclasses.replace(_room(), origin=Pose(1.0, 2.0, 0.5)), _START)):
+                localizer = Localizer(grid, config=chosen, initial=initial)
+                for step in steps(_recording(), config.bounds.motion):
+                    localizer.update(step.motion, step.scan)
 
 
 def _room() -> OccupancyGrid:

@@ -57,11 +57,16 @@ class BoundsSurvey:
         self._kept: list[bool] = []
         self._previous: Pose | None = None
 
-    def add(self, step: Step, pose: Pose | None) -> None:
-        """Take a scan and ``T_map_base`` of a reference; None where there is none."""
+    def add(self, step: Step, pose: Pose | None, *, beams: bool = True) -> None:
+        """Take a scan and ``T_map_base`` of a reference, None where there is none; `beams` says whether its beams count, too.
+
+        Bounds of motion that hold from each scan to the next hold over scans that are left out, since steps are composed. The reverse is
+        not so: a long step leaves so much room that what is added for each scan looks superfluous.
+        """
         if pose is not None:
-            at = self.grid.pose_to_grid(pose)
-            self._add_beams(UsedBeams.of(step.scan, self.config), np.array([[at.x, at.y, at.theta]]))
+            if beams:
+                at = self.grid.pose_to_grid(pose)
+                self._add_beams(UsedBeams.of(step.scan, self.config), np.array([[at.x, at.y, at.theta]]))
             if self._previous is not None and step.motion is not None:
                 self._add_motion(step, self._previous.inverse() @ pose)
         self._previous = pose

@@ -31,3 +31,23 @@ def test_what_is_refused(refused: Callable[..., str], sample: Path) -> None:
     assert "give --map" in refused("bounds", sample)
     Path("far.tum").write_text("1.0 0 0 0 0 0 0 1\n")
     assert "do not meet those of the scans" in refused("bounds", sample, "--map", sample_map_path(), "--truth", "far.tum", "--out", "b")
+
+
+def test_motion_is_measured_from_each_scan_to_the_next_and_beams_where_wanted(ial: Callable[..., Any]) -> None:
+    ial("simulate", "--map", sample_map_path(), "--out", "run.mcap", "--seed", 1, "--scans", 9)
+    given = ("bounds", "run.mcap", "--map", sample_map_path(), "--every", 4, "--json")
+    record = json.loads(ial(*given, "--truth", "run.tum", "--out", "true").stdout)
+    assert (record["scans"], record["steps_of"], record["motion"]["steps"]) == (3, 1, 8)
+    own = ial(*given[:-1], "--out", "own")
+    assert json.loads(Path("own/bounds.json").read_text())["steps_of"] == 4
+    assert "over steps of 4 scans" in own.stderr
+
+
+def test_a_reference_of_another_place_is_doubted(ial: Callable[..., Any]) -> None:
+    ial("simulate", "--map", sample_map_path(), "--out", "run.mcap", "--seed", 1, "--scans", 6)
+    moved = [line.split() for line in Path("run.tum").read_text().splitlines() if not line.startswith("#")]
+    Path("far.tum").write_text("".join(f"{row[0]} {float(row[1]) + 3.0} {float(row[2]) + 2.0} {' '.join(row[3:])}\n" for row in moved))
+    fits = ial("bounds", "run.mcap", "--map", sample_map_path(), "--truth", "run.tum", "--out", "fits")
+    far = ial("bounds", "run.mcap", "--map", sample_map_path(), "--truth", "far.tum", "--out", "far")
+    assert "probably does not belong" in far.stderr
+    assert "probably does not belong" not in fits.stderr

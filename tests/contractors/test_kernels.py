@@ -12,7 +12,7 @@ from ial.contractors.kernel_sources import kernel_sources
 from tests.contractors.package_copy import RESULT, ROOT, USE, PackageCopy
 from tests.contractors.pickle_bomb import plant
 
-MESSAGE = "compiling kernels, once (to be kept in "
+MESSAGE = "compiling kernels, once, that were not used before (to be kept in "
 FILES = list(kernel_sources().files.values())
 
 
