@@ -30,7 +30,7 @@ tries to make the state go on in files that are not its own; *changed* counts wh
 START = "from ial.cli.entry import main; main()"
 KILLER = f"""
 import os, signal, sys
-left, own = int(sys.argv.pop(1)), {{'out.jsonl', 'state', '.state.part'}}
+left, own = int(sys.argv.pop(1)), {{'out.jsonl', 'state', '.state.ial-part'}}
 def killer(event, arguments):
     global left
     if event in ('open', 'os.rename', 'os.remove'):

@@ -76,3 +76,17 @@ def test_what_is_replaced_often_takes_up_what_a_killed_process_has_left(tmp_path
         unfinished(path).write_bytes(b"half")
     with pytest.raises(OutputError, match="the state cannot be written"):
         rewrite(tmp_path / "nowhere" / "state", b"", "the state")
+
+
+def test_what_has_come_into_being_meanwhile_is_left_alone_and_so_is_the_result(tmp_path: Path) -> None:
+    lending = whole_files(tmp_path / "a", tmp_path / "b")
+    one, two = lending.__enter__()
+    one.write_bytes(b"1")
+    two.write_bytes(b"2")
+    (tmp_path / "b").write_bytes(b"mine")
+    with pytest.raises(OutputError, match="has come into being") as caught:
+        lending.__exit__(None, None, None)
+    assert (tmp_path / "b").read_bytes() == b"mine"
+    assert not (tmp_path / "a").exists()
+    assert (one.read_bytes(), two.read_bytes()) == (b"1", b"2")
+    assert str(two) in str(caught.value)

@@ -165,10 +165,11 @@ class Atlas:
         beams = scan_beams(scan, self.config)
         rejection = self._filter.update(motion, beams)
         states = {name: self.model.models[name].trim(poses, beams) for name, poses in self.poses.items()}
-        hypotheses = {name: find_hypotheses(poses, self.grids[name], counted=beams.informative) for name, poses in states.items()}
+        lost, counted = rejection is not None, beams.informative
+        hypotheses = {name: find_hypotheses(poses, self.grids[name], counted=counted, rejected=lost) for name, poses in states.items()}
         every = tuple(each for found in hypotheses.values() for each in found)
         known = self._filter.states
-        status = judge(every, self.config.localized_size, rejected=rejection is not None, found=not known.carried)
+        status = judge(every, self.config.localized_size, rejected=lost, found=not known.carried)
         place = next(name for name, each in hypotheses.items() if each) if status == "localized" else None
         return Whereabouts(
             stamp_ns=scan.stamp_ns,

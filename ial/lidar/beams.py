@@ -9,11 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ial.contractors.boxes import FloatArray
+from ial.contractors.angles import wrapped
+from ial.contractors.boxes import Boxes, FloatArray
 from ial.contractors.margins import ABOVE, ROUNDINGS
 from ial.datasets.scan import BeamClass, LaserScan, Mounting
 from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
 from ial.lidar.directions import unit_vectors
+from ial.lidar.margins import ANYWHERE_M
 from ial.lidar.rays import Rays
 from ial.lidar.share import Share, number_of
 from ial.lidar.sweep import sweep_boxes
@@ -151,9 +153,7 @@ def _paths(scan: LaserScan, bounds: Bounds) -> _Paths:
     laser = np.array([scan.mounting.x, scan.mounting.y])
     if scan.sweep is None or len(scan) < 2:
         return _Paths(np.broadcast_to(laser, (len(scan), 2)), np.zeros(len(scan)), angle, turn, units)
-    boxes = sweep_boxes(scan.sweep, bounds.motion, len(scan))
-    middle = 0.5 * (boxes[:, :, 0] + boxes[:, :, 1])
-    off = np.maximum(boxes[:, :, 1] - middle, middle - boxes[:, :, 0]) * ABOVE
+    middle, off = _middles(sweep_boxes(scan.sweep, bounds.motion, len(scan)))
     off_rad = off[:, 2]
     c, s = unit_vectors(middle[:, 2]).T
     origins = np.stack([c * laser[0] - s * laser[1], s * laser[0] + c * laser[1]], axis=1) + middle[:, :2]
@@ -164,6 +164,19 @@ def _paths(scan: LaserScan, bounds: Bounds) -> _Paths:
     angle = angle + middle[:, 2]
     turn = turn + (off_rad + _angle_rounding(angle)) * ABOVE
     return _Paths(origins, blurs, angle, turn, unit_vectors(angle))
+
+
+def _middles(boxes: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the middles of motions, rows (x, y, θ) of (lower, upper), and how far off they may be; float64 of shape (n, 3) each.
+
+    Bounds of motion may be as large as they like, even infinite: what may be anywhere is off by no more than that means.
+    """
+    headings = wrapped(Boxes(boxes[:, 2, :1], boxes[:, 2, 1:]), 0)
+    boxes = np.concatenate([boxes[:, :2], np.stack([headings.lower, headings.upper], axis=2)], axis=1)
+    far = ~(np.abs(boxes[:, :2]) <= ANYWHERE_M).all(axis=2)
+    boxes[:, :2][far] = (-ANYWHERE_M, ANYWHERE_M)
+    middle = 0.5 * (boxes[:, :, 0] + boxes[:, :, 1])
+    return middle, np.maximum(boxes[:, :, 1] - middle, middle - boxes[:, :, 0]) * ABOVE
 
 
 def _spread(rows: npt.NDArray[np.intp], most: int) -> npt.NDArray[np.intp]:

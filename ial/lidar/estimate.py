@@ -36,7 +36,7 @@ class Hypothesis:
     volume
         Sum of the volumes of the boxes (m² rad); a measure, not a bound.
     prediction
-        Whether it comes only from a prediction that a scan has rejected.
+        Whether it comes only from a prediction that a scan has rejected. Of a `lost` or `blind` scan, it is that prediction as it was.
     spare_beams
         How many more beams might have been bad: at most so many fewer than allowed are bad anywhere in it. None where it is not known.
     """
@@ -82,8 +82,9 @@ class Estimate:
     beams
         How many beams were used.
     outliers_allowed
-        q: how many of them may be bad. All of the answer but predictions was cut at this number. With ``outliers: auto`` it is what the
-        scan needed and the margin; of a `blind` scan, the largest number with which it was searched for in vain.
+        q: how many of them may be bad. All of the answer was cut at this number, but for the prediction that a `lost` or `blind` scan
+        carries on. With ``outliers: auto`` it is what the scan needed and the margin; of a `blind` scan, the largest number with which it
+        was searched for in vain.
     uninformative
         Whether the scan could exclude nothing: no usable beams, or as many allowed outliers.
     limited
@@ -110,7 +111,7 @@ class Estimate:
     check: "GlobalCheck | None" = None
 
 
-def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True) -> tuple[Hypothesis, ...]:
+def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True, rejected: bool = False) -> tuple[Hypothesis, ...]:
     """Return the connected components of a set of poses, the largest volume first, in the map frame.
 
     Parameters
@@ -121,7 +122,13 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True
         The map.
     counted
         Whether the last scan has told how many of its beams are bad; one that excludes nothing has not.
+    rejected
+        Whether the last scan has rejected the prediction, which is then carried on as it was: groups of what the scan has found and of
+        what it has not cut stay apart, though they touch.
     """
+    if rejected:
+        groups = [each for carried in (False, True) for each in find_hypotheses(poses.of_kind(carried=carried), grid, counted=counted)]
+        return tuple(sorted(groups, key=lambda each: -each.volume))
     counted = counted and not poses.limited
     clusters = cluster(poses.boxes, circular=(2,))
     in_map = grid.boxes_to_map(poses.boxes)

@@ -152,7 +152,7 @@ class Localizer:
         beams = scan_beams(scan, self.config)
         rejection = tracker.update(motion, beams)
         poses = self.model.trim(tracker.states, beams)
-        hypotheses = find_hypotheses(poses, self.grid, counted=beams.informative)
+        hypotheses = find_hypotheses(poses, self.grid, counted=beams.informative, rejected=rejection is not None)
         status = judge(
             hypotheses,
             self.config.localized_size,

@@ -6,7 +6,7 @@ rounded takes a part of its own size, as `ial.contractors.margins` has it.
 """
 
 from ial.contractors.margins import UNIT
-from ial.maps.occupancy_grid import LARGEST_SIDE
+from ial.maps.occupancy_grid import LARGEST_RESOLUTION, LARGEST_SIDE
 
 MOST_CELLS = 2**22
 """Cells along a side of a whole map; `Sheets` refuses more."""
@@ -31,6 +31,11 @@ It covers what comes before and after it, with u = 2⁻⁵³, N = `MOST_CELLS` a
 """
 
 assert 6.0 * UNIT * MOST_CELLS + 12.0 * UNIT * 8.0 * LARGEST_SIDE < MARGIN
+
+ANYWHERE_M = 2.0**40
+"""Metres: what may be off by so much may be anywhere in any map. No side is longer than `MOST_CELLS` cells of at most 1 km."""
+
+assert MOST_CELLS * LARGEST_RESOLUTION < 0.01 * ANYWHERE_M
 
 MOST_PARTS = 128
 """Cells of a table along an axis of a cell of the lattice; `divide` refuses more. Each thread counts in 4 KB times their square."""

@@ -15,13 +15,15 @@ from ial.datasets.recording import Step
 from ial.errors import OutputError
 from ial.lidar.estimate import Estimate
 from ial.results.sink import Sink
+from ial.whole_file import check_names, give_names
 
 
 class ResultFolder(AbstractContextManager["ResultFolder"]):
     """A folder to write into, and the sinks that write there.
 
     Files are written in a hidden subfolder and get their names when the block ends without an error. Otherwise nothing changes: a file of
-    an earlier run keeps its content, and folders that were made for this run are removed.
+    an earlier run keeps its content, and folders that were made for this run are removed. A file that has come into being meanwhile is
+    not replaced; the error says where the results are then.
 
     Parameters
     ----------
@@ -51,9 +53,11 @@ class ResultFolder(AbstractContextManager["ResultFolder"]):
         self._made = [each for each in (self.path, *self.path.parents) if not each.exists()]
         self._sinks: list[Sink] = []
         self._record: str | None = None
+        self._kept = False
         self._stack = ExitStack()
         try:
             self.path.mkdir(parents=True, exist_ok=True)
+            self._before = {each.name for each in self.path.iterdir()}
             self._hidden = Path(tempfile.mkdtemp(prefix=".unfinished-", dir=self.path))
         except OSError as error:
             self._remove_made()
@@ -136,15 +140,22 @@ class ResultFolder(AbstractContextManager["ResultFolder"]):
                 if kind is None:
                     self._name_files()
         finally:
-            shutil.rmtree(self._hidden, ignore_errors=True)
+            if not self._kept:
+                shutil.rmtree(self._hidden, ignore_errors=True)
             if not any(self.path.iterdir()):
                 self._remove_made()
 
     def _name_files(self) -> None:
-        if self._record is not None:
-            (self.path / self._record).unlink(missing_ok=True)
-        for file in sorted(self._hidden.iterdir(), key=lambda file: (file.name == self._record, file.name)):
-            file.replace(self.path / file.name)
+        files = sorted(self._hidden.iterdir(), key=lambda file: (file.name == self._record, file.name))
+        named = [(file, self.path / file.name, file.name not in self._before) for file in files]
+        try:
+            check_names(named)
+            if self._record is not None:
+                (self.path / self._record).unlink(missing_ok=True)
+            give_names(named)
+        except OutputError:  # something has come into being there meanwhile: the results stay where they are
+            self._kept = True
+            raise
 
     def _remove_made(self) -> None:
         for folder in self._made:

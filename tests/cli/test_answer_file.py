@@ -19,7 +19,7 @@ from ial.lidar.output_end import KEPT, OutputEnd
 Cli = Callable[..., Any]
 Refused = Callable[..., str]
 
-OUT, STATE, PART = Path("out.jsonl"), Path("state"), Path(".state.part")
+OUT, STATE, PART = Path("out.jsonl"), Path("state"), Path(".state.ial-part")
 OPTIONS = ("--map", sample_map_path(), "--out", OUT, "--state", STATE)
 
 
@@ -183,7 +183,7 @@ def test_what_belongs_to_one_file_is_not_written_to_another(feed: Callable[..., 
         assert "written twice" in refused(*options, "--out", out, "--state", STATE, "--overwrite")
         assert STATE.read_bytes() == state
     assert "written twice" in refused(*options, "--out", "new", "--state", "new")
-    assert "written twice" in refused(*options, "--out", ".new.part", "--state", "new")
+    assert "written twice" in refused(*options, "--out", ".new.ial-part", "--state", "new")
 
 
 def test_a_state_behind_a_link_stays_there(feed: Callable[..., Any], expected: list[bytes]) -> None:

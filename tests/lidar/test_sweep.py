@@ -3,6 +3,7 @@
 import itertools
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,9 +15,10 @@ from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.recording import Step
 from ial.datasets.scan import LaserScan, Mounting
 from ial.lidar.beams import select_beams
-from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
+from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig, Precision
 from ial.lidar.localizer import Localizer
 from ial.lidar.sweep import sweep_boxes
+from ial.maps.floor_plan import floor_plan
 from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 
@@ -148,3 +150,17 @@ def test_a_robot_that_stands_between_two_messages_is_not_lost(deskew: bool) -> N
     config = LocalizerConfig(bounds=Bounds(0.02, 0.0, 0.0, none), outliers=0, deskew=deskew)
     step = Step(0, scan.stamp_ns, None, scan, Odometry(*path.numbers[0].tolist()))
     assert Localizer(OccupancyGrid(cells, 0.05), config=config).update(step.motion, step.scan).poses.contains(at)
+
+
+@pytest.mark.parametrize("error", [1e15, 1e40, 1e160, 1.7e308])
+def test_motion_that_may_lead_anywhere_excludes_nothing(error: float) -> None:
+    grid = floor_plan(6.0, 5.0, 0.1, 2)
+    anything = MotionBounds(ErrorBound(error), ErrorBound(error))
+    config = LocalizerConfig(Bounds(0.01, 0.0, 0.0, anything), 0, deskew=True, precision=Precision(0.5, 0.5, 0))
+    path = OdometryPath.of([(0, Odometry.of(Pose())), (10**8, Odometry.of(Pose(0.3, -0.1, 2.0)))])
+    scan = LaserScan(0, np.full(40, 3.0, np.float32), -3.0, 0.15, sweep=path)
+    estimate = Localizer(grid, config=config).locate(scan)
+    assert estimate.status == "ambiguous"
+    # Only the first beam, at which the robot has not moved yet, says anything.
+    still = Localizer(grid, config=replace(config, deskew=False)).locate(replace(scan, ranges=scan.ranges[:1], sweep=None))
+    assert {tuple(each) for each in still.poses.boxes.lower.tolist()} <= {tuple(each) for each in estimate.poses.boxes.lower.tolist()}

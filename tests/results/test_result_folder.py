@@ -137,3 +137,17 @@ def test_a_folder_without_permission(tmp_path: Path) -> None:
     tmp_path.chmod(0o500)
     with pytest.raises(OutputError, match="Permission denied"):
         ResultFolder(tmp_path / "run")
+
+
+def test_a_file_that_has_come_into_being_meanwhile_is_not_replaced(tmp_path: Path) -> None:
+    (tmp_path / "old.txt").write_text("of an earlier run")
+    folder = ResultFolder(tmp_path)
+    folder.write("old.txt", "new")
+    folder.write("new.txt", "of this run")
+    (tmp_path / "new.txt").write_text("mine")
+    with pytest.raises(OutputError, match="has come into being") as caught:
+        folder.__exit__(None, None, None)
+    assert (tmp_path / "new.txt").read_text() == "mine"
+    assert (tmp_path / "old.txt").read_text() == "of an earlier run"
+    assert folder.place("new.txt").read_text() == "of this run"
+    assert str(folder.place("new.txt")) in str(caught.value)
