@@ -72,6 +72,7 @@ class Localizer:
             config = dataclasses.replace(config, outliers=outliers)
         self.config = config
         self.grid = grid
+        self.initial = initial
         self.model = LidarModel(grid, config)
         self._start = self.model.universe() if initial is None else self.model.within(initial)
         # A part of the map may tell a pose from its image; only all of it is known not to.

@@ -66,7 +66,7 @@ class Containment:
         in_grid = self._localizer.grid.pose_to_grid(pose)
         contained = estimate.poses.contains(in_grid)
         broken = self._broken(step, pose, in_grid, estimate.outliers_allowed)
-        before = self._localizer.start.contains(in_grid) if self._fresh else self._previous is not None and self._was_contained
+        before = self._starts(pose) if self._fresh else self._previous is not None and self._was_contained
         holds = not broken and before
         self._counts["reference"] += 1
         self._counts["contained"] += contained
@@ -85,6 +85,14 @@ class Containment:
     @property
     def _fresh(self) -> bool:
         return self._static or not self._started
+
+    def _starts(self, pose: Pose) -> bool:
+        """Return whether a pose of the map frame lies in the boxes that the localizer was given; the domain is asked for by itself."""
+        start, at = self._localizer.initial, np.array([pose.x, pose.y])
+        if start is None:
+            return True
+        rows = np.flatnonzero(((start.lower[:, :2] <= at) & (at <= start.upper[:, :2])).all(axis=1))
+        return any(contains_angle(start.lower[row, 2], start.upper[row, 2], pose.theta) for row in rows)
 
     def _broken(self, step: Step, pose: Pose, in_grid: Pose, allowed: int) -> list[str]:
         """Return which assumptions the reference pose breaks at a scan, among beams, motion and domain."""

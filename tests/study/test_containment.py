@@ -170,6 +170,15 @@ def test_a_start_without_the_reference_is_an_assumption_that_does_not_hold() -> 
         assert found["broken"] == broken(lost_before=1 - holds)
 
 
+def test_a_start_that_the_search_has_lost_is_no_broken_assumption(monkeypatch: pytest.MonkeyPatch) -> None:
+    there = ORIGIN @ PATH[0]
+    region = Boxes.of([(there.x - 0.1, there.x + 0.1), (there.y - 0.1, there.y + 0.1), (there.theta - 7.0, there.theta - 6.0)])
+    localizer = Localizer(GRID, config=LOCALIZER.config, initial=region)
+    monkeypatch.setattr(localizer, "_start", PoseSet(Boxes.none(3)))
+    found = summary((step(0), answer(0, contained=False)), localizer=localizer)
+    assert (found["scans_where_assumptions_hold"], found["contained_when_assumptions_hold"]) == (1, 0.0)
+
+
 def test_a_reference_of_the_laser_is_taken_back_to_the_base() -> None:
     lasers = Trajectory.of((stamp(i), ORIGIN @ PATH[i] @ MOUNTING.pose) for i in range(3))
     pairs = [(step(i), answer(i, localized=True)) for i in range(3)]
