@@ -137,6 +137,23 @@ def test_degrees_are_enclosed_in_radians() -> None:
                 assert exact(last) - mpmath.mpf(10) ** -14 <= exact(low + wide) * mpmath.pi / 180 <= exact(last)
 
 
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_a_robot_that_touches_the_end_of_a_wall_may_go_on_along_the_other_wall_of_the_corner(mirrored: bool) -> None:
+    """It comes from where the other wall is not in its way, turns by 60°, and passes the corner on the side of that wall."""
+    corners = [(0, 0), (9, 0), (9, 4), (5, 4), (5, 7), (0, 7)]
+    room = Environment((Polygon(ring(*([(y, x) for x, y in corners[::-1]] if mirrored else corners))),))
+    model = RayModel(room, Fraction(60 if mirrored else 300), Fraction(1), most_pieces=6000)
+    ends = [(model.walls.x[at], model.walls.y[at]) for at in range(6)]
+    start, other = (ends.index((0.0, 0.0)), ends.index((4.0, 5.0))) if mirrored else (ends.index((0.0, 7.0)), ends.index((9.0, 4.0)))
+    along = (3.0 - 5.0 * np.tan(np.radians(10.0))) / 7.0
+    at = np.array([[1.0 - along if mirrored else along, np.radians(100.0 if mirrored else -10.0)]])
+    one = RaySet(np.array([start], np.int32), at - 1e-9, at + 1e-9, np.zeros(1, np.int32), np.zeros(1, np.bool_), np.array([np.inf]))
+    after = model.leg(one, 5)
+    heading = np.radians(160.0 if mirrored else 290.0)
+    corner = after.lower[:, 0] <= 0.0 if mirrored else after.upper[:, 0] >= 1.0
+    assert ((after.walls == other) & corner & (after.lower[:, 1] <= heading) & (heading <= after.upper[:, 1])).any()
+
+
 def test_more_steps_than_fit_are_a_rejection() -> None:
     model = RayModel(ROOM, Fraction(90), Fraction(1), most_pieces=4000)
     robot = SetMembershipFilter(model, model.restart)
