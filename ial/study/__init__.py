@@ -6,12 +6,10 @@ Names are loaded when they are first used.
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ial.study.blocked_rays import blocked_rays as blocked_rays
     from ial.study.containment import Containment as Containment
     from ial.study.domain import Domain as Domain
     from ial.study.good_beams import bad_beams as bad_beams
     from ial.study.good_beams import consistent as consistent
-    from ial.study.good_beams import good_beams as good_beams
     from ial.study.obstacles import Obstacles as Obstacles
     from ial.study.used_beams import UsedBeams as UsedBeams
 else:
@@ -20,10 +18,9 @@ else:
     __getattr__, __dir__, __all__ = _lazy(
         __name__,
         {
-            "blocked_rays": ("blocked_rays",),
             "containment": ("Containment",),
             "domain": ("Domain",),
-            "good_beams": ("bad_beams", "consistent", "good_beams"),
+            "good_beams": ("bad_beams", "consistent"),
             "obstacles": ("Obstacles",),
             "used_beams": ("UsedBeams",),
         },

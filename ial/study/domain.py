@@ -46,9 +46,6 @@ class Domain:
 
     def _roomy(self, cells: npt.NDArray[np.int64]) -> BoolArray:
         """Return in which cells, (column, row), a place is certainly far enough from every occupied cell."""
-        found = np.zeros(len(cells), dtype=np.bool_)
-        for share in _IN_A_CELL:
-            at = (cells + share) * self._resolution
-            # Cells were made smaller by a slack, so what is near is told by three more of them.
-            found |= ~self._obstacles.near(at, at, self._radius_m + 3.0 * slack_m(at))
-        return found
+        places = ((cells[:, None] + _IN_A_CELL) * self._resolution).reshape(-1, 2)
+        far = self._obstacles.distances(places) >= self._radius_m + slack_m(places, self._radius_m)
+        return np.asarray(far.reshape(len(cells), -1).any(axis=1))

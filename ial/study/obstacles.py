@@ -16,6 +16,7 @@ from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
 SLACK_M = 1e-9
 """So much is kept off every bound, and 2⁻⁴⁰ of the largest number: thousands of times what doubles round."""
 
+_FAR_CELLS = 64.0  # where more than this may be near, every cell is tried
 _AT_ONCE = 1 << 20  # numbers that are held at a time
 
 FloatArray = npt.NDArray[np.float64]
@@ -71,9 +72,10 @@ class Obstacles:
         middles = 0.5 * (starts + ends)
         reach = 0.5 * float(np.abs(ends - starts).max()) + distance
         slack = slack_m(starts, ends, distance)
-        ring = int(reach / self.resolution) + 1
-        for rows in portions(len(starts), (2 * ring + 1) ** 2):
-            row, cells = self.occupied_around(middles[rows], ring)
+        wide = reach > _FAR_CELLS * self.resolution
+        ring = 0 if wide else int(reach / self.resolution) + 1
+        for rows in portions(len(starts), int(self.mask.sum()) if wide else (2 * ring + 1) ** 2):
+            row, cells = self._all_occupied(rows) if wide else self.occupied_around(middles[rows], ring)
             corners = cells.T.astype(np.float64)
             low, high = corners * self.resolution + slack, (corners + 1.0) * self.resolution - slack
             a, b = starts[rows][row].T, ends[rows][row].T
@@ -82,6 +84,12 @@ class Obstacles:
             close = _gaps(a[:, likely], b[:, likely], low[:, likely], high[:, likely]) <= distance
             found[rows.start + row[likely[close]]] = True
         return found
+
+    def _all_occupied(self, rows: slice) -> tuple[IndexArray, IndexArray]:
+        """Return what `occupied_around` does, with every cell for each of some rows."""
+        row, column = np.nonzero(self.mask)
+        count = rows.stop - rows.start
+        return np.repeat(np.arange(count), len(row)), np.tile(np.stack([column, row], axis=1), (count, 1))
 
     def occupied_around(self, points: FloatArray, ring: int) -> tuple[IndexArray, IndexArray]:
         """Return the occupied cells around the cells that hold points: the row of the point, and (column, row) of the cell.

@@ -22,10 +22,17 @@ def open_strips(obstacles: Obstacles, origins: FloatArray, angles: FloatArray, l
     aside_m
         Half the width of a strip, 0 for a single ray.
     """
-    passed = lengths <= 0.0
-    extent = np.array(obstacles.mask.shape[::-1]) * obstacles.resolution
-    farthest = np.hypot(*np.maximum(np.abs(origins), np.abs(origins - extent)).T) + obstacles.resolution
-    lengths = np.minimum(lengths, farthest)  # beyond the map nothing stands
+    middle = 0.5 * np.array(obstacles.mask.shape[::-1]) * obstacles.resolution
+    slack = slack_m(origins, 2.0 * middle, aside_m)
+    # Only what lies beside the map can meet anything: the rest of each ray is cut off, and rays of a strip may pass outside of the map.
+    around = float(np.hypot(*middle)) + 2.0 * obstacles.resolution + slack
+    ux, uy = np.cos(angles), np.sin(angles)
+    x, y = (middle - origins).T
+    along, beside = x * ux + y * uy, y * ux - x * uy
+    first = np.maximum(along - around, 0.0)
+    lengths = np.minimum(lengths, along + around) - first
+    origins = origins + first[:, None] * np.stack([ux, uy], axis=1)
+    passed: BoolArray = (lengths <= 0.0) | (aside_m + np.abs(beside) > around)
     rows = np.flatnonzero(~passed)
     rows = rows[np.argsort(lengths[rows], kind="stable")]  # of like length together: rows of points are as long as the longest
     if not len(rows):
@@ -48,7 +55,6 @@ def open_strips(obstacles: Obstacles, origins: FloatArray, angles: FloatArray, l
             np.unique(np.ravel_multi_index((ray[at], cells[:, 1], cells[:, 0]), shape := (len(some), *obstacles.mask.shape))), shape
         )
         cells = np.stack([column, row], axis=1)
-        slack = slack_m(points, lengths[some])
         low, high, met = _shadows(cells, obstacles.resolution, origins[some], unit, lengths[some], ray, slack)
         passed[some] = _gaps_between(ray[met], low[met], high[met], len(some), aside_m, slack)
     return passed

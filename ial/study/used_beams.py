@@ -13,7 +13,7 @@ from ial.datasets.scan import LaserScan
 from ial.lidar.config import Bounds, LocalizerConfig
 from ial.study.possible_motions import possible_motions
 
-_MOST_TURNS = 500  # to each side; an endless beam is not worth more
+_MOST_TURNS = 100  # to each side; an endless beam is not worth more
 
 FloatArray = npt.NDArray[np.float64]
 IndexArray = npt.NDArray[np.intp]

@@ -16,9 +16,9 @@ from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.maps.ray_casting import cast_rays
 from ial.pose import Pose
 from ial.study.possible_motions import possible_motions
-from tests.lidar.fuzz_settings import random_config, random_map
+from tests.lidar.fuzz_settings import factors, random_config, random_map
 
-MODES = ("static", "tracked", "lost", "blind", "maps", "lidars", "deskewed", "limited", "initial", "fine", "sheets")
+MODES = ("static", "tracked", "lost", "blind", "maps", "lidars", "deskewed", "limited", "initial", "fine", "extreme", "sheets")
 INSIDE = 1.0 - 1e-9
 LIDARS = {"laser": Mounting(), "rear": Mounting(-0.2, 0.05, math.pi, upside_down=True)}
 
@@ -91,9 +91,11 @@ class _Driver:
         self.random = random
         self.place = str(random.choice(list(drive.grids)))
         self.sizes = np.array([6.0, 6.0, 0.0]) * drive.grids["map 0"].resolution + [0.0, 0.0, 0.5]
-        self.beams = int(random.integers(8, 45))
+        self.beams = int(random.integers(1 if drive.mode == "extreme" else 8, 45))
         self.view = float(random.uniform(1.5, 2.0 * math.pi)) * float(random.choice([-1.0, 1.0]))
-        self.mounting = Mounting(*random.uniform(-0.3, 0.3, 2).tolist(), float(random.uniform(-4.0, 4.0)), bool(random.integers(2)))
+        self.view *= float(factors(random, drive.mode, 1)[0].clip(1e-7, 1e2))
+        far = factors(random, drive.mode, 2)
+        self.mounting = Mounting(*(random.uniform(-0.3, 0.3, 2) * far).tolist(), float(random.uniform(-4.0, 4.0)), bool(random.integers(2)))
 
     def go(self) -> None:
         """Drive; halfway, a robot that is to get lost is carried away, one that is to be blind sees nonsense."""
@@ -159,11 +161,11 @@ class _Driver:
         frame = "rear" if drive.mode == "lidars" and number % 2 else "laser"
         mounting = LIDARS["rear"] if frame == "rear" else self.mounting
         limits = (float(random.uniform(-math.pi, math.pi)), self.view / beams, 0.3 * grid.resolution, 60.0 * grid.resolution)
-        sweep = self._sweep() if drive.mode == "deskewed" else None
+        sweep = self._sweep() if drive.mode in ("deskewed", "extreme") else None
         blank = LaserScan(0, np.ones(beams, np.float32), *limits, mounting=mounting, frame_id=frame, sweep=sweep)
         bounds = config.bounds.of(frame)
         moved = np.zeros((beams, 3))
-        if sweep is not None and config.deskew:
+        if sweep is not None and config.deskew and beams > 1:
             moves = possible_motions(sweep, config.bounds.motion, np.arange(beams) / (beams - 1))
             moved = moves[:, int(random.integers(moves.shape[1]))]
         bearings = blank.angle_min + np.arange(beams) * blank.angle_increment
@@ -173,10 +175,12 @@ class _Driver:
         shift = float(random.uniform(-math.pi, math.pi))
         at = at + bounds.map_error_m * INSIDE * np.array([math.cos(shift), math.sin(shift)]) * random.integers(2)
         angles = heading + bearings + _errors(random, beams, bounds.bearing_error_rad)
-        distance = cast_rays(grid.mask(OCCUPIED), grid.resolution, at[:, 0], at[:, 1], angles)
+        start = np.clip(at, -1e9 * grid.resolution, 1e9 * grid.resolution)  # as far as rays can be cast from
+        distance = cast_rays(grid.mask(OCCUPIED), grid.resolution, start[:, 0], start[:, 1], np.mod(angles, 2.0 * math.pi))
         ranges = distance + 1e-6 + _errors(random, beams, bounds.range_error_m)
         spoilt = random.random(beams) < (1.0 if nonsense else random.choice([0.0, 0.1, 0.3]))
         other = random.uniform(0.0, 60.0 * grid.resolution, beams)
+        ranges = ranges * factors(random, drive.mode, beams)
         ranges[spoilt] = np.where(random.random(beams) < 0.8, other, random.choice([np.inf, np.nan], beams))[spoilt]
         return replace(blank, ranges=ranges.astype(np.float32))
 

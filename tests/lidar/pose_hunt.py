@@ -175,7 +175,8 @@ class Hunt:
         return np.asarray((low + self._shares(count) * (high - low))[(low <= high).all(axis=1)])
 
     def _motions(self, motion: Motion, count: int) -> Array:
-        low, high = np.maximum(motion.lower, -20.0) + MARGIN, np.minimum(motion.upper, 20.0) - MARGIN
+        low, high = (np.where(np.isfinite(each), each, np.sign(each) * 20.0) for each in (motion.lower, motion.upper))
+        low, high = low + MARGIN, high - MARGIN
         return np.asarray(low + self._shares(count) * (high - low))
 
     def _shares(self, count: int) -> Array:

@@ -17,7 +17,7 @@ from tests.lidar.box_index import BoxIndex
 from tests.lidar.fuzz_drives import MODES, random_drive
 from tests.lidar.pose_fuzzer import ALL_MODES, Tally, fuzz
 
-SLOW = {"sheets"}  # tables of a large map; in bench/fuzz_poses.py
+SLOW = {"sheets"}  # the tables of a large map; bench/fuzz_poses.py has them
 
 
 def fuzzed(mode: str, poses: int) -> Tally:
