@@ -36,7 +36,7 @@ class OdometryBuffer:
         self._limits: dict[int, tuple[float, float]] = {}
         self._fixed: dict[int, Odometry] = {}
         self._sorted = True
-        self.kept_since_ns = -(2**63)  # what is older was left out by `forget`
+        self.kept_since_ns = -(2**63)  # what is older was left out by `forget` or `lose`
         for stamp, odometry in samples:
             self.add(stamp, odometry)
 
@@ -120,6 +120,7 @@ class OdometryBuffer:
         self._sort()
         del self._stamps[: count - 1]
         del self._numbers[: NUMBERS * (count - 1)]
+        self.kept_since_ns = self._stamps[0]
         self._numbers[4:NUMBERS] = array("d", [math.inf, math.inf])
 
     def _row(self, index: int) -> list[float]:

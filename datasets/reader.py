@@ -15,6 +15,7 @@ from ial.datasets.survey import survey
 from ial.errors import RecordingError
 
 _MILLISECOND = 10**6
+UNTIMED: dict[str, Any] = {"time_increment": 0.0, "sweep": None}  # of a scan whose beams' times are not known
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,8 @@ class Record:
         The arguments of `LaserScan`, without the stamp.
     fault
         Why it cannot be used, if it cannot.
+    repaired
+        What was mended in it, if anything.
     messages
         Gives the odometry messages since a scan, by the stamp that this has in the file, or since the beginning if there is None; without
         those at the two scans. It is asked at most once, and only of a scan that is used.
@@ -40,6 +43,7 @@ class Record:
     odometry: Odometry | None = None
     scan: dict[str, Any] = field(default_factory=dict)
     fault: str = ""
+    repaired: str = ""
     messages: Callable[[int | None], OdometryPath] = lambda since: OdometryPath.of()
 
 
@@ -96,13 +100,15 @@ class Reader(ABC):
                 stamp = last + (1 if together else _MILLISECOND)
                 if not together:
                     self.repaired["stamp did not increase: set to its predecessor's plus 1 ms"] += 1
-                    timed = {"time_increment": 0.0, "sweep": None}
+                    timed = UNTIMED
             recorded = record.stamp_ns, {lidar, *(recorded[1] if record.stamp_ns == recorded[0] else ())}
             last = last if stamp is None else stamp
             scan = self._scan(record, stamp, timed)
             if isinstance(scan, str):
                 self.skipped[scan] += 1
             elif record.odometry is not None:
+                if record.repaired:
+                    self.repaired[record.repaired] += 1
                 messages = record.messages(since).within(None if used is None else used.stamp_ns, scan.stamp_ns)
                 since = record.stamp_ns
                 used = Reading(index, scan.stamp_ns, record.odometry, scan, messages)

@@ -236,7 +236,10 @@ def test_the_robot_in_the_corridor_is_not_lost() -> None:
         assert answer.status != "lost"
 
 
-def test_a_scan_that_comes_after_its_messages_are_forgotten_is_skipped_whatever_it_says_about_itself() -> None:
+def test_a_scan_that_comes_after_its_messages_are_forgotten_is_skipped_whatever_it_says_about_itself(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("ial.datasets.scan_stream._KEPT_NS", 0)
     late = scan(STAMPS[5], odometry={"x": 0.5, "y": 0.0, "theta": 0.0, "error_m": 0.1})
     stream = ScanStream([*corridor((STAMPS[20], scan(STAMPS[20]))), late])
     check(motion(stream))
@@ -249,3 +252,23 @@ def test_odometry_that_was_looked_up_is_no_message() -> None:
     first, middle, last = ScanStream(lines).readings()
     assert middle.odometry == Odometry(0.65, 0.0, error_m=0.06)
     assert [len(reading.messages) for reading in (first, middle, last)] == [0, 6, 33]
+
+
+def swept_back(*others: tuple[float, bytes]) -> ScanStream:
+    """Return the corridor with a scan at 1.6 s whose last beam is of 1.02 s."""
+    back = scan(STAMPS[30], frame_id="b", ranges=[1.0] * 30, time_increment=-STEP_S, end={"x": 0.1, "y": 0.0, "theta": 0.0})
+    return ScanStream(corridor(*others, (STAMPS[30], back)))
+
+
+def test_a_sweep_that_goes_back_behind_the_scan_of_another_lidar_has_every_message(monkeypatch: pytest.MonkeyPatch) -> None:
+    stream = swept_back((STAMPS[28], scan(STAMPS[28])))
+    sweep = next(reading.scan.sweep for reading in stream.readings() if reading.scan.frame_id == "b")
+    assert sweep is not None
+    assert sweep.numbers[:, 0].tolist() == RECORDED[30:1:-1] + [0.1]
+    # Where messages were forgotten nevertheless, nothing is known of the sweep.
+    monkeypatch.setattr("ial.datasets.scan_stream._KEPT_NS", 0)
+    found = next(reading.scan for reading in stream.readings() if reading.scan.frame_id == "b")
+    assert (found.sweep, found.time_increment) == (None, 0.0)
+    assert any("no longer known" in fault for fault in stream.repaired)
+    monkeypatch.setattr("ial.datasets.scan_stream._MOST_MESSAGES", 16)
+    assert next(reading.scan.sweep for reading in swept_back().readings() if reading.scan.frame_id == "b") is None
