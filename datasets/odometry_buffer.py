@@ -88,6 +88,12 @@ class OdometryBuffer:
         error_m, error_rad = interpolation_error(np.array(first), np.array(second), np.array(found.numbers))
         return Odometry(found.x, found.y, found.z, found.w, error_m, error_rad)
 
+    def holds(self, stamp_ns: int) -> bool:
+        """Return whether there is a message with exactly this stamp."""
+        self._sort()
+        at = bisect_left(self._stamps, stamp_ns)
+        return at < len(self._stamps) and self._stamps[at] == stamp_ns
+
     def between(self, start_ns: int | None, stop_ns: int) -> OdometryPath:
         """Return the messages strictly between two times, in that order; all before the second if there is no first."""
         self._sort()

@@ -9,13 +9,10 @@ from typing import Any
 from ial.datasets.info import RecordingInfo, Topic
 from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_path import OdometryPath
-from ial.datasets.recording import Reading
-from ial.datasets.scan import LaserScan
+from ial.datasets.recording import RAISED_BY_NS, STAMP_RAISED, Reading
+from ial.datasets.scan import UNTIMED, LaserScan
 from ial.datasets.survey import survey
 from ial.errors import RecordingError
-
-_MILLISECOND = 10**6
-UNTIMED: dict[str, Any] = {"time_increment": 0.0, "sweep": None}  # of a scan whose beams' times are not known
 
 
 @dataclass(frozen=True)
@@ -37,6 +34,8 @@ class Record:
     messages
         Gives the odometry messages since a scan, by the stamp that this has in the file, or since the beginning if there is None; without
         those at the two scans. It is asked at most once, and only of a scan that is used.
+    looked_up
+        Whether `odometry` is no message of that time, but was looked up between two.
     """
 
     stamp_ns: int | None
@@ -45,6 +44,7 @@ class Record:
     fault: str = ""
     repaired: str = ""
     messages: Callable[[int | None], OdometryPath] = lambda since: OdometryPath.of()
+    looked_up: bool = False
 
 
 class Reader(ABC):
@@ -97,9 +97,9 @@ class Reader(ABC):
             stamp, lidar, timed = record.stamp_ns, record.scan.get("frame_id", ""), {}
             if stamp is not None and last is not None and stamp <= last:
                 together = stamp == recorded[0] and lidar not in recorded[1]
-                stamp = last + (1 if together else _MILLISECOND)
+                stamp = last + (1 if together else RAISED_BY_NS)
                 if not together:
-                    self.repaired["stamp did not increase: set to its predecessor's plus 1 ms"] += 1
+                    self.repaired[STAMP_RAISED] += 1
                     timed = UNTIMED
             recorded = record.stamp_ns, {lidar, *(recorded[1] if record.stamp_ns == recorded[0] else ())}
             last = last if stamp is None else stamp
@@ -109,9 +109,11 @@ class Reader(ABC):
             elif record.odometry is not None:
                 if record.repaired:
                     self.repaired[record.repaired] += 1
-                messages = record.messages(since).within(None if used is None else used.stamp_ns, scan.stamp_ns)
+                given = record.messages(since)
+                messages = given.within(None if used is None else used.stamp_ns, scan.stamp_ns)
                 since = record.stamp_ns
-                used = Reading(index, scan.stamp_ns, record.odometry, scan, messages)
+                raised = 0 if since is None else scan.stamp_ns - since
+                used = Reading(index, scan.stamp_ns, record.odometry, scan, messages, raised, messages is given, record.looked_up)
                 yield used
         if used is None:
             self._refuse()

@@ -30,8 +30,8 @@ import numpy as np
 from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_buffer import MAX_GAP_NS, OdometryBuffer
 from ial.datasets.odometry_path import OdometryPath
-from ial.datasets.reader import UNTIMED, Reader, Record
-from ial.datasets.scan import LaserScan, Mounting, last_beam_ns
+from ial.datasets.reader import Reader, Record
+from ial.datasets.scan import UNTIMED, LaserScan, Mounting, last_beam_ns
 from ial.datasets.stamps import format_stamp, parse_stamp
 from ial.datasets.text_log import lines
 from ial.errors import RecordingError
@@ -71,7 +71,8 @@ class _Waiting:
             odometry.forget(stamp - _KEPT_NS)
             return messages
 
-        return Record(stamp, first, {**self.scan, **timed}, repaired=repaired, messages=take)
+        looked_up = self.first is not None or not odometry.holds(stamp)
+        return Record(stamp, first, {**self.scan, **timed}, repaired=repaired, messages=take, looked_up=looked_up)
 
 
 class ScanStream(Reader):

@@ -21,7 +21,7 @@ from ial.datasets.motion import ErrorBound, Motion, MotionBounds
 from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.opening import open_recording
-from ial.datasets.recording import Reading, Recording, steps
+from ial.datasets.recording import Reading, Recording, Step, steps
 from ial.datasets.scan import LaserScan
 from ial.datasets.scan_stream import ScanStream
 from ial.lidar.config import Bounds, LocalizerConfig
@@ -264,7 +264,7 @@ def test_a_sweep_that_goes_back_behind_the_scan_of_another_lidar_has_every_messa
     stream = swept_back((STAMPS[28], scan(STAMPS[28])))
     sweep = next(reading.scan.sweep for reading in stream.readings() if reading.scan.frame_id == "b")
     assert sweep is not None
-    assert sweep.numbers[:, 0].tolist() == RECORDED[30:1:-1] + [0.1]
+    assert sweep.numbers[:, 0].tolist() == [*RECORDED[30:1:-1], 0.1]
     # Where messages were forgotten nevertheless, nothing is known of the sweep.
     monkeypatch.setattr("ial.datasets.scan_stream._KEPT_NS", 0)
     found = next(reading.scan for reading in stream.readings() if reading.scan.frame_id == "b")
@@ -272,3 +272,65 @@ def test_a_sweep_that_goes_back_behind_the_scan_of_another_lidar_has_every_messa
     assert any("no longer known" in fault for fault in stream.repaired)
     monkeypatch.setattr("ial.datasets.scan_stream._MOST_MESSAGES", 16)
     assert next(reading.scan.sweep for reading in swept_back().readings() if reading.scan.frame_id == "b") is None
+
+
+def numbers(found: list[Step]) -> list[Any]:
+    """Return all that a localizer sees of the steps."""
+    return [
+        (step.index, step.stamp_ns, None if step.motion is None else (step.motion.lower.tolist(), step.motion.upper.tolist()))
+        for step in found
+    ]
+
+
+@pytest.mark.parametrize("stuck", [1, 10, 30, 120])
+def test_a_stream_that_was_down_behind_a_scan_whose_stamp_was_raised(stuck: int) -> None:
+    lines = corridor(*((STAMPS[row], scan(STAMPS[row])) for row in (3, 6, 8, 20)))
+    lines[1:2] = [lines[1]] * stuck  # the scan's clock stands still
+    bounds = MotionBounds(replace(BOUNDS.translation, per_second=1.0), BOUNDS.rotation)
+    whole = list(steps(ScanStream(lines), bounds))
+    assert whole[stuck - 1].stamp_ns == 10**9 + (stuck - 1) * 10**6
+    for rest in (lines, lines[1 + stuck :]):
+        stream = ScanStream(rest)
+        assert numbers(list(steps(stream, bounds, after=whole[stuck - 1].mark))) == numbers(whole[stuck:])
+    assert len(whole) == stuck + 5
+
+
+def test_a_stream_that_was_down_behind_a_clock_that_went_back_has_every_message() -> None:
+    lines = corridor(*((STAMPS[row], scan(STAMPS[row])) for row in (10, 30)))
+    early = lines.index(scan(STAMPS[30]))
+    lines[early + 1 : early + 1] = [scan(STAMPS[20])]  # of a clock that was set back
+    whole = list(steps(ScanStream(lines), BOUNDS))
+    mark = whole[3].mark
+    assert (mark.raised_ns, mark.behind_ns) == (201 * 10**6, 200 * 10**6)
+    assert numbers(list(steps(ScanStream(lines), BOUNDS, after=mark))) == numbers(whole[4:])
+    for rest in (lines[2:], lines[early - 5 :], lines[early + 2 :]):
+        (step,) = steps(ScanStream(rest), BOUNDS, after=mark)
+        assert step.index > mark.index
+        assert step.stamp_ns == whole[4].stamp_ns
+        assert step.motion is not None
+        recorded = set(step.recorded[0].numbers[:, 0].tolist())
+        assert set(RECORDED[31:40]) <= recorded
+
+
+def test_a_carmen_log_that_begins_behind_the_mark_says_nothing_of_the_motion(tmp_path: Path) -> None:
+    lines = [f"ODOM {x} 0 0 0 0 0 0.0 host 0.0\n" for x in RECORDED]
+    scans = [f"FLASER 2 1.0 1.5 0 0 0 0 0 0 {stamp} host {stamp}\n" for stamp in (1.0, 1.8, 2.0)]
+    whole, rest = tmp_path / "whole.log", tmp_path / "rest.log"
+    whole.write_text("".join([lines[0], scans[0], *lines[1:], scans[1], lines[5], scans[2]]))
+    rest.write_text("".join([*lines[1:], scans[1], lines[5], scans[2]]))
+    read = list(steps(CarmenLog(whole), BOUNDS))
+    assert numbers(list(steps(CarmenLog(whole), BOUNDS, after=read[0].mark))) == numbers(read[1:])
+    second, third = steps(CarmenLog(rest), BOUNDS, after=read[0].mark)
+    assert second.motion is not None
+    assert third.motion is not None
+    assert np.isinf(second.motion.lower[:2]).all()
+    assert numbers([third]) == numbers(read[2:])
+
+
+@pytest.mark.parametrize("nanoseconds", [1, 4, 100])
+def test_more_messages_than_nanoseconds(tmp_path: Path, nanoseconds: int) -> None:
+    path = tmp_path / "corridor.log"
+    lines = [f"ODOM {x} 0 0 0 0 0 0.0 host 0.0\n" for x in RECORDED]
+    scans = [f"FLASER 1 1.0 0 0 0 0 0 0 {stamp} host {stamp}\n" for stamp in ("1.0", f"1.{nanoseconds:09d}")]
+    path.write_text("".join([lines[0], scans[0], *lines[1:], scans[1]]))
+    check(motion(CarmenLog(path)))
