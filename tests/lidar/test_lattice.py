@@ -11,7 +11,7 @@ from ial.contractors.contractor import Contractor
 from ial.contractors.intervals.angle import contains_angle
 from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.contractors.paving.paver import pave
-from ial.lidar.lattice import Lattice
+from ial.lidar.lattice import Lattice, layer_edges
 
 PLENTY = 10**6
 
@@ -202,3 +202,19 @@ def test_a_double_beside_the_edge_of_a_cell_is_in_the_cell_on_its_side(position:
             for row, box in zip(bounds[:: 97 if axis else 1], boxes, strict=True):
                 assert len(box) == 1
                 assert box.lower[0, axis] < row[axis] < box.upper[0, axis]
+
+
+@pytest.mark.parametrize("heading", [0.5, 0.1, 0.02, 0.003])
+def test_a_heading_a_bit_beyond_the_edge_of_a_layer_takes_the_layer_behind_it(heading: float) -> None:
+    lattice = Lattice(1.0, heading)
+    edges = layer_edges(lattice.layers)[1:-1]
+    for start, stop in ((np.nextafter(edges, -9.0), edges), (edges, np.nextafter(edges, 9.0)), (edges, edges)):
+        found = np.array(
+            [[hull.lower[0, 2], hull.upper[0, 2]] for hull in (_around(lattice, *each) for each in zip(start, stop, strict=True))]
+        )
+        assert (found[:, 0] <= start).all()
+        assert (found[:, 1] >= stop).all()
+
+
+def _around(lattice: Lattice, start: float, stop: float) -> Boxes:
+    return lattice.boxes(lattice.tiles(Boxes.of([(0.5, 0.5), (0.5, 0.5), (start, stop)]))).hull()
