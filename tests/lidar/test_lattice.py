@@ -1,6 +1,7 @@
 import math
 from collections.abc import Callable
 
+import mpmath
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -214,6 +215,19 @@ def test_a_heading_a_bit_beyond_the_edge_of_a_layer_takes_the_layer_behind_it(he
         )
         assert (found[:, 0] <= start).all()
         assert (found[:, 1] >= stop).all()
+
+
+@pytest.mark.parametrize("heading", [0.5, 0.1, 0.02])
+def test_an_arc_across_the_cut_takes_the_layer_in_which_it_ends(heading: float) -> None:
+    lattice = Lattice(1.0, heading)
+    with mpmath.workdps(40):
+        turn = 2 * mpmath.pi
+        for edge in layer_edges(lattice.layers)[: lattice.layers // 2].tolist():
+            for beyond in (0.0, 2e-15, 1e-12, 3e-9):
+                stop = float(edge + turn) + beyond
+                cells = lattice.boxes(lattice.tiles(Boxes.of([(0.5, 0.5), (0.5, 0.5), (3.0, stop)])))
+                lower, upper = cells.lower[:, 2].tolist(), cells.upper[:, 2].tolist()
+                assert any(low <= stop - turn <= high or low <= stop <= high for low, high in zip(lower, upper, strict=True))
 
 
 def _around(lattice: Lattice, start: float, stop: float) -> Boxes:
