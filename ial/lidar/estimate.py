@@ -96,7 +96,7 @@ class Estimate:
     check
         The comparison with the rest of the map, at the scans at which there was one.
     vanishing
-        Whether hardly anything is left: less than the errors of the beams alone leave open around a pose, see `leeway`. Mostly a bound has
+        Whether hardly anything is left: less than the errors of the beams alone leave open around a pose, see `leeway`. Often a bound has
         been broken then, but it is no proof. False where the scan has rejected the prediction or excludes nothing, or a limit struck.
     """
 
