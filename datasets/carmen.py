@@ -26,6 +26,7 @@ from ial.pose import Pose
 
 _PARSERS = {b"FLASER": parse_flaser, b"ROBOTLASER1": parse_robotlaser}
 _SICK_CODES = (81.83, 81.91)  # a SICK LMS with a range of 80 m reports its faults as readings from 81.83 to 81.91 m
+_NEVER_NS = 2**63 - 1
 _NO_RETURN_COUNT = 3
 _NO_RETURN_SHARE = 1e-3
 
@@ -97,10 +98,12 @@ class _OdometryChain:
     def take(self, since: int | None) -> OdometryPath:
         """Return the messages since the last scan that was used, but for the last, which is that of the scan at hand; forget them.
 
-        All have the stamp of that scan, which says that they have none of their own.
+        All have the stamp of that scan, which says that they have none of their own. Before the first scan they have one that no scan has.
         """
-        messages, self._lines = self._lines[:-1], []
-        return OdometryPath.of((since, message) for message in messages) if since is not None else OdometryPath.of()
+        messages, self._lines = self._lines, []
+        if since is None:
+            return OdometryPath.of((_NEVER_NS, message) for message in messages)
+        return OdometryPath.of((since, message) for message in messages[:-1])
 
     def odometry(self) -> Odometry | None:
         """Return the continuous pose as the odometry of a scan."""

@@ -8,7 +8,7 @@ import numpy as np
 from ial.contractors.intervals.angle import wrap_angle
 from ial.contractors.intervals.arithmetic import add, div, mul, sub
 from ial.contractors.intervals.rotation import rotate
-from ial.contractors.intervals.trigonometric import PI_UPPER, atan2, cos, hypot, sin
+from ial.contractors.intervals.trigonometric import PI_LOWER, PI_UPPER, atan2, cos, hypot, sin
 from ial.contractors.kernels import kernel
 
 PER_MESSAGE, PER_METRE, PER_RADIAN, PER_SECOND, PER_SCAN = range(5)  # columns of the parts of a bound; the rows are dx, dy, dtheta
@@ -137,4 +137,6 @@ def interpolation_error(first, second, found):  # type: ignore[no-untyped-def]
         angle = max(angle, max(-box[2, 0], box[2, 1]))
     _shift(first, second, box)
     box[2, 0], box[2, 1] = _turned(first, second)
+    if box[2, 0] < -PI_LOWER or box[2, 1] > PI_LOWER:  # half a circle may have been turned either way
+        angle = max(angle, PI_UPPER)
     return add(aside, aside, 0.0, sagitta(box))[1], angle

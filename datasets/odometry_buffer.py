@@ -36,7 +36,7 @@ class OdometryBuffer:
         self._limits: dict[int, tuple[float, float]] = {}
         self._fixed: dict[int, Odometry] = {}
         self._sorted = True
-        self.kept_since_ns = -(2**63)  # what is older was left out by `forget`
+        self.kept_since_ns = -(2**63)  # what is older was left out by `forget` or `lose`
         for stamp, odometry in samples:
             self.add(stamp, odometry)
 
@@ -88,6 +88,12 @@ class OdometryBuffer:
         error_m, error_rad = interpolation_error(np.array(first), np.array(second), np.array(found.numbers))
         return Odometry(found.x, found.y, found.z, found.w, error_m, error_rad)
 
+    def holds(self, stamp_ns: int) -> bool:
+        """Return whether there is a message with exactly this stamp."""
+        self._sort()
+        at = bisect_left(self._stamps, stamp_ns)
+        return at < len(self._stamps) and self._stamps[at] == stamp_ns
+
     def between(self, start_ns: int | None, stop_ns: int) -> OdometryPath:
         """Return the messages strictly between two times, in that order; all before the second if there is no first."""
         self._sort()
@@ -120,6 +126,7 @@ class OdometryBuffer:
         self._sort()
         del self._stamps[: count - 1]
         del self._numbers[: NUMBERS * (count - 1)]
+        self.kept_since_ns = self._stamps[0]
         self._numbers[4:NUMBERS] = array("d", [math.inf, math.inf])
 
     def _row(self, index: int) -> list[float]:

@@ -41,6 +41,12 @@ class OdometryPath:
         pairs = list(samples)
         return cls(np.array([stamp for stamp, _ in pairs], dtype=np.int64), np.array([odometry.numbers for _, odometry in pairs]))
 
+    @classmethod
+    def joined(cls, paths: Iterable["OdometryPath"]) -> "OdometryPath":
+        """Return paths one after the other."""
+        each = [cls.of(), *paths]
+        return cls(np.concatenate([path.stamps_ns for path in each]), np.concatenate([path.numbers for path in each]))
+
     def __len__(self) -> int:
         return len(self.stamps_ns)
 
@@ -68,7 +74,8 @@ class OdometryPath:
         """Return the same messages at stamps between two times.
 
         Stamps that all lie there, and increase, are kept. Otherwise no clock can be trusted, and the time is shared equally among the
-        messages; nothing is known of those before the first scan, where there is no time to share.
+        messages, of which several may have one stamp where there are more than nanoseconds; nothing is known of those before the first
+        scan, where there is no time to share.
         """
         stamps = self.stamps_ns
         begun = start_ns is None or (stamps > start_ns).all()

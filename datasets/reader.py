@@ -9,12 +9,10 @@ from typing import Any
 from ial.datasets.info import RecordingInfo, Topic
 from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_path import OdometryPath
-from ial.datasets.recording import Reading
-from ial.datasets.scan import LaserScan
+from ial.datasets.recording import RAISED_BY_NS, STAMP_RAISED, Reading
+from ial.datasets.scan import UNTIMED, LaserScan
 from ial.datasets.survey import survey
 from ial.errors import RecordingError
-
-_MILLISECOND = 10**6
 
 
 @dataclass(frozen=True)
@@ -31,24 +29,30 @@ class Record:
         The arguments of `LaserScan`, without the stamp.
     fault
         Why it cannot be used, if it cannot.
+    repaired
+        What was mended in it, if anything.
     messages
         Gives the odometry messages since a scan, by the stamp that this has in the file, or since the beginning if there is None; without
         those at the two scans. It is asked at most once, and only of a scan that is used.
+    looked_up
+        Whether `odometry` is no message of that time, but was looked up between two.
     """
 
     stamp_ns: int | None
     odometry: Odometry | None = None
     scan: dict[str, Any] = field(default_factory=dict)
     fault: str = ""
+    repaired: str = ""
     messages: Callable[[int | None], OdometryPath] = lambda since: OdometryPath.of()
+    looked_up: bool = False
 
 
 class Reader(ABC):
     """A recording in a file: a subclass yields its records, this class makes them canonical readings.
 
-    A stamp that does not increase becomes its predecessor's plus 1 ms and is counted, and the times of its beams are not known; but the
-    scan of another lidar at the same stamp follows after 1 ns. A scan that cannot be used is counted by its reason, and the odometry
-    messages before it belong to the next scan that can.
+    A stamp that does not increase from scan to scan that can be used becomes its predecessor's plus 1 ms and is counted, and the times of
+    its beams are not known; but the scan of another lidar at the same stamp follows after 1 ns. A scan that cannot be used is counted by
+    its reason, and the odometry messages before it belong to the next scan that can.
 
     Parameters
     ----------
@@ -85,27 +89,29 @@ class Reader(ABC):
         """
         self.skipped.clear()
         self.repaired.clear()
-        last: int | None = None
-        recorded: tuple[int | None, set[str]] = None, set()  # the last stamp in the file, and the lidars that had it
         used: Reading | None = None
         since: int | None = None  # the stamp in the file of the last scan that was used
+        lidars: set[str] = set()  # whose scans of that stamp were used
         for index, record in enumerate(self._records()):
-            stamp, lidar, timed = record.stamp_ns, record.scan.get("frame_id", ""), {}
-            if stamp is not None and last is not None and stamp <= last:
-                together = stamp == recorded[0] and lidar not in recorded[1]
-                stamp = last + (1 if together else _MILLISECOND)
-                if not together:
-                    self.repaired["stamp did not increase: set to its predecessor's plus 1 ms"] += 1
-                    timed = {"time_increment": 0.0, "sweep": None}
-            recorded = record.stamp_ns, {lidar, *(recorded[1] if record.stamp_ns == recorded[0] else ())}
-            last = last if stamp is None else stamp
+            stamp, lidar, timed, raised = record.stamp_ns, record.scan.get("frame_id", ""), {}, 0
+            if stamp is not None and used is not None and stamp <= used.stamp_ns:
+                together = stamp == since and lidar not in lidars
+                raised = used.stamp_ns + (1 if together else RAISED_BY_NS) - stamp
+                timed = UNTIMED if raised >= RAISED_BY_NS else {}
+                stamp += raised
             scan = self._scan(record, stamp, timed)
             if isinstance(scan, str):
                 self.skipped[scan] += 1
             elif record.odometry is not None:
-                messages = record.messages(since).within(None if used is None else used.stamp_ns, scan.stamp_ns)
+                if timed:
+                    self.repaired[STAMP_RAISED] += 1
+                if record.repaired:
+                    self.repaired[record.repaired] += 1
+                given = record.messages(since)
+                messages = given.within(None if used is None else used.stamp_ns, scan.stamp_ns)
+                lidars = {lidar, *(lidars if record.stamp_ns == since else ())}
                 since = record.stamp_ns
-                used = Reading(index, scan.stamp_ns, record.odometry, scan, messages)
+                used = Reading(index, scan.stamp_ns, record.odometry, scan, messages, raised, messages is given, record.looked_up)
                 yield used
         if used is None:
             self._refuse()

@@ -1,5 +1,6 @@
 """`Recording`: what every reader yields, and the steps that a localizer takes from it."""
 
+import math
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
@@ -8,11 +9,15 @@ from typing import Protocol
 import numpy as np
 
 from ial.datasets.info import RecordingInfo
+from ial.datasets.mark import Mark
 from ial.datasets.motion import Motion, MotionBounds
 from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_path import OdometryPath
-from ial.datasets.scan import BeamClass, LaserScan
+from ial.datasets.scan import UNTIMED, BeamClass, LaserScan
 from ial.errors import RecordingError
+
+STAMP_RAISED = "stamp did not increase: set to its predecessor's plus 1 ms"
+RAISED_BY_NS = 10**6
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +37,13 @@ class Reading:
     messages
         Every message of the odometry since the scan yielded before, in the order of recording; those at the two scans are not among them.
         Their stamps lie between those of the two scans. For the first scan: every message before it, where messages have stamps.
+    raised_ns
+        By how much `stamp_ns` is later than the stamp in the recording, which did not increase.
+    clocked
+        Whether `messages` have stamps of their own. Else they have shares of the time between the scans; and before a first scan, where
+        there is no time to share, they are left out.
+    looked_up
+        Whether `odometry` is no message of that time, but was looked up between two.
     """
 
     index: int
@@ -39,6 +51,14 @@ class Reading:
     odometry: Odometry
     scan: LaserScan
     messages: OdometryPath = field(default_factory=OdometryPath.of)
+    raised_ns: int = 0
+    clocked: bool = True
+    looked_up: bool = False
+
+    @property
+    def recorded_ns(self) -> int:
+        """The stamp in the recording."""
+        return self.stamp_ns - self.raised_ns
 
 
 class Recording(Protocol):
@@ -87,6 +107,8 @@ class Step:
         Where the odometry says the robot is at the scan.
     recorded
         What `motion` was made of: the odometry from each scan of the recording to the next, since the last processed one.
+    raised_ns, behind_ns
+        As in `Mark`.
     """
 
     index: int
@@ -95,26 +117,13 @@ class Step:
     scan: LaserScan
     odometry: Odometry
     recorded: tuple[OdometryPath, ...] = ()
+    raised_ns: int = 0
+    behind_ns: int = 0
 
     @property
-    def mark(self) -> "Mark":
+    def mark(self) -> Mark:
         """What a later run needs in order to go on behind this scan."""
-        return Mark(self.index, self.stamp_ns, self.odometry)
-
-
-@dataclass(frozen=True)
-class Mark:
-    """The last processed scan of a run that was interrupted.
-
-    Parameters
-    ----------
-    index, stamp_ns, odometry
-        As in `Step`.
-    """
-
-    index: int
-    stamp_ns: int
-    odometry: Odometry
+        return Mark(self.index, self.stamp_ns, self.odometry, self.raised_ns, self.behind_ns)
 
 
 def steps(
@@ -141,8 +150,10 @@ def steps(
     start, stop, every
         Which raw scans to process, like a slice; `stop` is exclusive.
     after
-        Go on behind this scan: scans and messages up to its stamp are passed over. Where the recording does not hold it (a live one, which
-        went on in the meantime), scans are counted on from its number, and the time without messages is one piece of the odometry.
+        Go on behind this scan, which is found by its number, stamp and odometry. Where the recording does not hold it (a live one, which
+        went on in the meantime), scans and messages up to its stamp in the recording are passed over, scans are counted on from its number,
+        and the time without messages is one piece of the odometry. Whatever cannot be told to be before it counts as being behind it. The
+        motion is unknown where messages have no stamps of their own.
     no_return
         Whether beams without return are usable, as hits are.
 
@@ -158,37 +169,70 @@ def steps(
     recorded: list[OdometryPath] = []
     yielded, usable = 0, after is not None
     used = (BeamClass.HIT, BeamClass.NO_RETURN) if no_return else (BeamClass.HIT,)
-    for reading in _behind(recording, after):
+    latest = None if after is None else after.latest_ns
+    for reading in recording.readings() if after is None else _behind(recording, after):
         if stop is not None and reading.index >= stop:
             break
         here = reading.stamp_ns, reading.odometry
         if previous is not None and (yielded or after is not None):
-            path = reading.messages.behind(previous[0]).joining(previous, here)
+            path = reading.messages.joining(previous, here)
             recorded.append(path)
             moved = bounds.along(path)
             motion = moved if motion is None else motion.compose(moved)
         previous = here
+        latest = reading.recorded_ns if latest is None else max(latest, reading.recorded_ns)
         if reading.index < start or (reading.index - start) % every:
             continue
         usable = usable or bool(np.isin(reading.scan.classes(), used).any())
-        yield Step(reading.index, reading.stamp_ns, motion, reading.scan, reading.odometry, tuple(recorded))
+        clock = reading.raised_ns, latest - reading.recorded_ns
+        yield Step(reading.index, reading.stamp_ns, motion, reading.scan, reading.odometry, tuple(recorded), *clock)
         yielded += 1
         motion, recorded = None, []
     if after is None:
         _check_any(recording, yielded, usable, start)
 
 
-def _behind(recording: Recording, after: Mark | None) -> Iterator[Reading]:
-    """Yield the readings behind a mark, numbered as if the run had never been interrupted."""
-    if after is None:
-        yield from recording.readings()
-        return
-    offset = after.index + 1
-    for reading in recording.readings():
-        if reading.stamp_ns <= after.stamp_ns:
-            offset = 0  # the recording is read from its beginning once more
-        else:
-            yield reading if not offset else replace(reading, index=reading.index + offset)
+def _behind(recording: Recording, mark: Mark) -> Iterator[Reading]:
+    """Yield the readings behind a mark, numbered as if the run had never been interrupted, the first with every message since.
+
+    Where the recording does not hold the scan of the mark, a message too many makes a bound wider, and one too few makes it false.
+    """
+    offset, last = mark.index + 1, mark.stamp_ns
+    missed: list[OdometryPath] | None = []
+    readings = recording.readings()
+    for reading in readings:
+        if (reading.index, reading.stamp_ns, reading.raised_ns, reading.odometry) == (mark.index, last, mark.raised_ns, mark.odometry):
+            yield from readings
+            return
+        if missed is not None:
+            missed.append(_since(mark, reading))
+            if reading.recorded_ns <= mark.latest_ns:
+                missed.append(_at(mark, reading))
+                offset = mark.index - reading.index
+                continue
+            reading, missed = replace(reading, messages=OdometryPath.joined(missed)), None
+        if reading.stamp_ns <= last:
+            recording.repaired[STAMP_RAISED] += 1
+            stamp = last + RAISED_BY_NS
+            raised = reading.raised_ns + stamp - reading.stamp_ns
+            reading = replace(reading, stamp_ns=stamp, raised_ns=raised, scan=replace(reading.scan, stamp_ns=stamp, **UNTIMED))
+        yield replace(reading, index=reading.index + offset, messages=reading.messages.within(last, reading.stamp_ns))
+        last = reading.stamp_ns
+
+
+def _since(mark: Mark, reading: Reading) -> OdometryPath:
+    """Return the messages of a reading that may have come behind a mark; one with infinite errors where they are not known."""
+    if reading.clocked:
+        return reading.messages.behind(mark.recorded_ns)
+    if len(reading.messages):
+        return reading.messages
+    return OdometryPath.of([(mark.stamp_ns, replace(mark.odometry, error_m=math.inf, error_rad=math.inf))])
+
+
+def _at(mark: Mark, reading: Reading) -> OdometryPath:
+    """Return the odometry of a reading, unless that is the one of the mark or of a time before it."""
+    before = reading.recorded_ns < mark.recorded_ns or (reading.recorded_ns, reading.odometry) == (mark.recorded_ns, mark.odometry)
+    return OdometryPath.of() if reading.clocked and before else OdometryPath.of([(reading.stamp_ns, reading.odometry)])
 
 
 def _check_any(recording: Recording, yielded: int, usable: bool, start: int) -> None:

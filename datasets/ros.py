@@ -151,7 +151,8 @@ def _record(message: Any, odometry: OdometryBuffer, mounting: Mounting, frame: s
     scan = {name: getattr(message, name) for name in names}
     sweep = odometry.sweep(stamp, last_beam_ns(stamp, message.time_increment, len(message.ranges)))
     about = {**scan, "mounting": mounting, "frame_id": frame, "sweep": sweep}
-    return Record(stamp, odometry.at(stamp), about, messages=lambda since: odometry.between(since, stamp))
+    looked_up = not odometry.holds(stamp)
+    return Record(stamp, odometry.at(stamp), about, messages=lambda since: odometry.between(since, stamp), looked_up=looked_up)
 
 
 def _listed(topics: list[Topic]) -> str:

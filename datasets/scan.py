@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass, field
 from enum import IntEnum
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -177,6 +178,9 @@ class LaserScan:
         """Return how far a real number that rounds to each float32 range may lie from it, metres, float64 of shape (n,); NaN stays."""
         with np.errstate(invalid="ignore"):
             return np.abs(np.spacing(self.ranges)).astype(np.float64) * 0.5  # exact
+
+
+UNTIMED: dict[str, Any] = {"time_increment": 0.0, "sweep": None}  # of a scan whose beams' times are not known
 
 
 def last_beam_ns(stamp_ns: int, time_increment: float, beams: int) -> int:

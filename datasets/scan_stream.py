@@ -31,13 +31,14 @@ from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_buffer import MAX_GAP_NS, OdometryBuffer
 from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.reader import Reader, Record
-from ial.datasets.scan import LaserScan, Mounting, last_beam_ns
+from ial.datasets.scan import UNTIMED, LaserScan, Mounting, last_beam_ns
 from ial.datasets.stamps import format_stamp, parse_stamp
 from ial.datasets.text_log import lines
 from ial.errors import RecordingError
 from ial.pose import Pose
 
 _NUMBERS = {"angle_min", "angle_increment", "range_min", "range_max", "time_increment"}
+_KEPT_NS = 5 * 10**9  # how long messages outlast the scan that took them: the sweep of another lidar may reach back over them
 _MOST_MESSAGES = 2**20  # that are kept while no scan can be used: an hour and a half at 200 Hz, 56 MiB
 _NEEDED = {"stamp", "angle_min", "angle_increment", "ranges"}
 
@@ -53,20 +54,25 @@ class _Waiting:
     last: Odometry | None
 
     def record(self, odometry: OdometryBuffer) -> Record:
-        """Return the scan with what is known of the odometry; messages are forgotten when they are taken."""
+        """Return the scan with what is known of the odometry; messages are forgotten some time after they are taken."""
         stamp, end = self.stamp_ns, self.end_ns
         # Where its messages are forgotten already, a scan that comes too late is of no use, whatever it says about itself.
         first = odometry.at(stamp) if self.first is None or stamp < odometry.kept_since_ns else self.first
-        sweep = None
-        if first is not None and math.isfinite(first.error_m) and self.last is not None and end != stamp:
-            sweep = odometry.between(stamp, end).joining((stamp, first), (end, self.last))
+        timed: dict[str, Any] = {"sweep": None}
+        repaired = ""
+        if first is not None and self.last is not None and end != stamp:
+            if math.isfinite(first.error_m) and min(stamp, end) >= odometry.kept_since_ns:
+                timed = {"sweep": odometry.between(stamp, end).joining((stamp, first), (end, self.last))}
+            else:
+                timed, repaired = UNTIMED, "odometry during the scan is no longer known: all beams taken as of its stamp"
 
         def take(since: int | None) -> OdometryPath:
             messages = odometry.between(since, stamp)
-            odometry.forget(stamp)
+            odometry.forget(stamp - _KEPT_NS)
             return messages
 
-        return Record(stamp, first, {**self.scan, "sweep": sweep}, messages=take)
+        looked_up = self.first is not None or not odometry.holds(stamp)
+        return Record(stamp, first, {**self.scan, **timed}, repaired=repaired, messages=take, looked_up=looked_up)
 
 
 class ScanStream(Reader):

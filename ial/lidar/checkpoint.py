@@ -13,15 +13,15 @@ import numpy as np
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.paving.limits import Limit
+from ial.datasets.mark import Mark
 from ial.datasets.odometry import Odometry
-from ial.datasets.recording import Mark
 from ial.errors import RecordingError
 from ial.lidar.localizer import Localizer
 from ial.lidar.output_end import OutputEnd
 from ial.lidar.pose_set import PoseSet
 from ial.whole_file import rewrite
 
-_FORM = "ial checkpoint 2"
+_FORM = "ial checkpoint 3"
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +59,8 @@ class Checkpoint:
             "index": self.mark.index,
             "stamp_ns": self.mark.stamp_ns,
             "odometry": asdict(self.mark.odometry),
+            "raised_ns": self.mark.raised_ns,
+            "behind_ns": self.mark.behind_ns,
             "output": None if self.output is None else asdict(self.output),
             "fingerprint": self.fingerprint,
             "limited": poses.limited,
@@ -92,7 +94,8 @@ class Checkpoint:
                     outliers=int(about["outliers"]),
                     accepted=None if about["accepted"] is None else int(about["accepted"]),
                 ).checked()
-            mark = Mark(int(about["index"]), int(about["stamp_ns"]), Odometry(**about["odometry"]))
+            clock = int(about["raised_ns"]), int(about["behind_ns"])
+            mark = Mark(int(about["index"]), int(about["stamp_ns"]), Odometry(**about["odometry"]), *clock)
             output = None if about["output"] is None else OutputEnd(**about["output"])
             found = cls(mark, poses, output, str(about["fingerprint"]))
         except FileNotFoundError:

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 
-from ial.datasets.recording import Mark, Recording, Step, steps
+from ial.datasets.mark import Mark
+from ial.datasets.recording import Recording, Step, steps
 from ial.lidar.estimate import Estimate
 from ial.lidar.localizer import Localizer
 

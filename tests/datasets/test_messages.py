@@ -21,9 +21,10 @@ from ial.datasets.motion import ErrorBound, Motion, MotionBounds
 from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.opening import open_recording
-from ial.datasets.recording import Reading, Recording, steps
+from ial.datasets.recording import Reading, Recording, Step, steps
 from ial.datasets.scan import LaserScan
 from ial.datasets.scan_stream import ScanStream
+from ial.errors import OutputError
 from ial.lidar.config import Bounds, LocalizerConfig
 from ial.lidar.localizer import Localizer
 from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
@@ -236,7 +237,10 @@ def test_the_robot_in_the_corridor_is_not_lost() -> None:
         assert answer.status != "lost"
 
 
-def test_a_scan_that_comes_after_its_messages_are_forgotten_is_skipped_whatever_it_says_about_itself() -> None:
+def test_a_scan_that_comes_after_its_messages_are_forgotten_is_skipped_whatever_it_says_about_itself(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("ial.datasets.scan_stream._KEPT_NS", 0)
     late = scan(STAMPS[5], odometry={"x": 0.5, "y": 0.0, "theta": 0.0, "error_m": 0.1})
     stream = ScanStream([*corridor((STAMPS[20], scan(STAMPS[20]))), late])
     check(motion(stream))
@@ -249,3 +253,141 @@ def test_odometry_that_was_looked_up_is_no_message() -> None:
     first, middle, last = ScanStream(lines).readings()
     assert middle.odometry == Odometry(0.65, 0.0, error_m=0.06)
     assert [len(reading.messages) for reading in (first, middle, last)] == [0, 6, 33]
+
+
+def swept_back(*others: tuple[float, bytes]) -> ScanStream:
+    """Return the corridor with a scan at 1.6 s whose last beam is of 1.02 s."""
+    back = scan(STAMPS[30], frame_id="b", ranges=[1.0] * 30, time_increment=-STEP_S, end={"x": 0.1, "y": 0.0, "theta": 0.0})
+    return ScanStream(corridor(*others, (STAMPS[30], back)))
+
+
+def test_a_sweep_that_goes_back_behind_the_scan_of_another_lidar_has_every_message(monkeypatch: pytest.MonkeyPatch) -> None:
+    stream = swept_back((STAMPS[28], scan(STAMPS[28])))
+    sweep = next(reading.scan.sweep for reading in stream.readings() if reading.scan.frame_id == "b")
+    assert sweep is not None
+    assert sweep.numbers[:, 0].tolist() == [*RECORDED[30:1:-1], 0.1]
+    # Where messages were forgotten nevertheless, nothing is known of the sweep.
+    monkeypatch.setattr("ial.datasets.scan_stream._KEPT_NS", 0)
+    found = next(reading.scan for reading in stream.readings() if reading.scan.frame_id == "b")
+    assert (found.sweep, found.time_increment) == (None, 0.0)
+    assert any("no longer known" in fault for fault in stream.repaired)
+    monkeypatch.setattr("ial.datasets.scan_stream._MOST_MESSAGES", 16)
+    assert next(reading.scan.sweep for reading in swept_back().readings() if reading.scan.frame_id == "b") is None
+
+
+def numbers(found: list[Step]) -> list[Any]:
+    """Return all that a localizer sees of the steps."""
+    return [
+        (step.index, step.stamp_ns, None if step.motion is None else (step.motion.lower.tolist(), step.motion.upper.tolist()))
+        for step in found
+    ]
+
+
+@pytest.mark.parametrize("stuck", [1, 10, 30, 120])
+def test_a_stream_that_was_down_behind_a_scan_whose_stamp_was_raised(stuck: int) -> None:
+    lines = corridor(*((STAMPS[row], scan(STAMPS[row])) for row in (3, 6, 8, 20)))
+    lines[1:2] = [lines[1]] * stuck  # the scan's clock stands still
+    bounds = MotionBounds(replace(BOUNDS.translation, per_second=1.0), BOUNDS.rotation)
+    whole = list(steps(ScanStream(lines), bounds))
+    assert whole[stuck - 1].stamp_ns == 10**9 + (stuck - 1) * 10**6
+    for rest in (lines, lines[1 + stuck :]):
+        stream = ScanStream(rest)
+        assert numbers(list(steps(stream, bounds, after=whole[stuck - 1].mark))) == numbers(whole[stuck:])
+    assert len(whole) == stuck + 5
+
+
+def test_a_stream_that_was_down_behind_a_clock_that_went_back_has_every_message() -> None:
+    lines = corridor(*((STAMPS[row], scan(STAMPS[row])) for row in (10, 30)))
+    early = lines.index(scan(STAMPS[30]))
+    lines[early + 1 : early + 1] = [scan(STAMPS[20])]  # of a clock that was set back
+    whole = list(steps(ScanStream(lines), BOUNDS))
+    mark = whole[3].mark
+    assert (mark.raised_ns, mark.behind_ns) == (201 * 10**6, 200 * 10**6)
+    assert numbers(list(steps(ScanStream(lines), BOUNDS, after=mark))) == numbers(whole[4:])
+    for rest in (lines[2:], lines[early - 5 :], lines[early + 2 :]):
+        (step,) = steps(ScanStream(rest), BOUNDS, after=mark)
+        assert step.index > mark.index
+        assert step.stamp_ns == whole[4].stamp_ns
+        assert step.motion is not None
+        recorded = set(step.recorded[0].numbers[:, 0].tolist())
+        assert set(RECORDED[31:40]) <= recorded
+
+
+def test_a_carmen_log_that_begins_behind_the_mark_says_nothing_of_the_motion(tmp_path: Path) -> None:
+    lines = [f"ODOM {x} 0 0 0 0 0 0.0 host 0.0\n" for x in RECORDED]
+    scans = [f"FLASER 2 1.0 1.5 0 0 0 0 0 0 {stamp} host {stamp}\n" for stamp in (1.0, 1.8, 2.0)]
+    whole, rest = tmp_path / "whole.log", tmp_path / "rest.log"
+    whole.write_text("".join([lines[0], scans[0], *lines[1:], scans[1], lines[5], scans[2]]))
+    rest.write_text("".join([*lines[1:], scans[1], lines[5], scans[2]]))
+    read = list(steps(CarmenLog(whole), BOUNDS))
+    assert numbers(list(steps(CarmenLog(whole), BOUNDS, after=read[0].mark))) == numbers(read[1:])
+    second, third = steps(CarmenLog(rest), BOUNDS, after=read[0].mark)
+    assert second.motion is not None
+    assert third.motion is not None
+    assert np.isinf(second.motion.lower[:2]).all()
+    assert numbers([third]) == numbers(read[2:])
+
+
+@pytest.mark.parametrize("nanoseconds", [1, 4, 100])
+def test_more_messages_than_nanoseconds(tmp_path: Path, nanoseconds: int) -> None:
+    path = tmp_path / "corridor.log"
+    lines = [f"ODOM {x} 0 0 0 0 0 0.0 host 0.0\n" for x in RECORDED]
+    scans = [f"FLASER 1 1.0 0 0 0 0 0 0 {stamp} host {stamp}\n" for stamp in ("1.0", f"1.{nanoseconds:09d}")]
+    path.write_text("".join([lines[0], scans[0], *lines[1:], scans[1]]))
+    check(motion(CarmenLog(path)))
+
+
+def copies(source: Recording, folder: Path) -> list[Recording]:
+    """Return a recording as it is read back from each format."""
+    convert_to_lines(source, folder / "copy.jsonl")
+    for kind in ("mcap", "bag"):
+        convert(source, folder / f"copy.{kind}")
+    return [open_recording(path) for path in sorted(folder.iterdir())]
+
+
+END = {"x": 0.5, "y": 0.0, "theta": 0.0}
+
+
+def sweeping(row: int, lidar: str, **more: Any) -> tuple[float, bytes]:
+    """Return a scan at a message, whose last beam is five messages later."""
+    return STAMPS[row], scan(STAMPS[row], frame_id=lidar, ranges=[1.0] * 11, time_increment=0.01, end=END, **more)
+
+
+def test_two_lidars_that_sweep_from_one_stamp_are_copied_to_the_bit(tmp_path: Path, canonical_steps) -> None:  # type: ignore[no-untyped-def]
+    bad = (STAMPS[12], scan(STAMPS[12], frame_id="c", ranges=[]))  # of a third one
+    for number, more in enumerate(([], [bad])):
+        lines = corridor(*more, *(sweeping(row, lidar) for row in (4, 12, 20) for lidar in "ab"))
+        source = ScanStream(lines)
+        expected = canonical_steps(source)
+        assert not source.repaired
+        assert sum(step[5] is not None for step in expected) == 6
+        (tmp_path / str(number)).mkdir()
+        for copy in copies(ScanStream(lines), tmp_path / str(number)):
+            assert canonical_steps(copy) == expected
+
+
+def test_an_inexact_message_at_a_scan_is_a_message(tmp_path: Path, canonical_steps) -> None:  # type: ignore[no-untyped-def]
+    lines = corridor(sweeping(4, "a"), sweeping(6, "b"))
+    rough = json.dumps({"odometry": {"stamp": f"{STAMPS[6]:.9f}", "x": 0.6, "y": 0.0, "theta": 0.0, "error_m": 0.01}}).encode()
+    lines = [rough if line == odometry(STAMPS[6], RECORDED[6]) else line for line in lines]
+    expected = canonical_steps(ScanStream(lines))
+    sweep = next(reading.scan.sweep for reading in ScanStream(lines).readings() if reading.scan.frame_id == "a")
+    assert sweep is not None
+    assert sweep.numbers[2, 4] == 0.01
+    for copy in copies(ScanStream(lines), tmp_path):
+        assert canonical_steps(copy) == expected
+
+
+def test_a_raised_scan_brings_no_message_into_the_sweep_of_another(tmp_path: Path, canonical_steps) -> None:  # type: ignore[no-untyped-def]
+    lines = corridor(sweeping(12, "a"), (STAMPS[12], scan(STAMPS[12], frame_id="a")))
+    expected = canonical_steps(ScanStream(lines))
+    for copy in copies(ScanStream(lines), tmp_path):
+        assert canonical_steps(copy) == expected
+    # Where there are messages between the two, their shares of the time lie in the sweep.
+    lines = corridor(sweeping(12, "a"), (STAMPS[12], scan(STAMPS[12], stamp=f"{STAMPS[8]:.9f}", frame_id="b")))
+    with pytest.raises(OutputError, match="other odometry during a scan"):
+        convert_to_lines(ScanStream(lines), tmp_path / "copy.jsonl")
+    back = scan(STAMPS[14], frame_id="b", ranges=[1.0] * 11, time_increment=-0.01, end=END)
+    lines = corridor((STAMPS[12], scan(STAMPS[12])), (STAMPS[12], scan(STAMPS[12], stamp=f"{STAMPS[8]:.9f}")), (STAMPS[14], back))
+    with pytest.raises(OutputError, match="other odometry during a scan"):
+        convert_to_lines(ScanStream(lines), tmp_path / "copy.jsonl")

@@ -141,3 +141,14 @@ def test_messages_that_were_lost_leave_nothing_known() -> None:
     (first, *rest) = buffer.between(None, 6)
     assert first == (3, Odometry.of(Pose(3.0), math.inf, math.inf))
     assert [stamp for stamp, _ in rest] == [4, 5]
+
+
+@pytest.mark.parametrize("w", [1e-17, -1e-17, -3e-17, -6.2e-17, 0.0])
+def test_half_a_turn_may_go_either_way(w: float) -> None:
+    found = OdometryBuffer([(0, Odometry(0.0, 0.0)), (100, Odometry(0.0, 0.0, 1.0, w))]).at(50)
+    assert found is not None
+    turn = 2 * mpmath.atan2(1, w) - 2 * mpmath.pi * (w < 0)
+    for share in (0.01, 0.5, 0.99):
+        off = share * turn - 2 * mpmath.atan2(found.z, found.w)
+        off -= 2 * mpmath.pi * mpmath.nint(off / (2 * mpmath.pi))
+        assert abs(off) <= found.error_rad

@@ -1,6 +1,7 @@
 import math
 from collections.abc import Callable
 
+import mpmath
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -11,7 +12,7 @@ from ial.contractors.contractor import Contractor
 from ial.contractors.intervals.angle import contains_angle
 from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.contractors.paving.paver import pave
-from ial.lidar.lattice import Lattice
+from ial.lidar.lattice import Lattice, layer_edges
 
 PLENTY = 10**6
 
@@ -202,3 +203,32 @@ def test_a_double_beside_the_edge_of_a_cell_is_in_the_cell_on_its_side(position:
             for row, box in zip(bounds[:: 97 if axis else 1], boxes, strict=True):
                 assert len(box) == 1
                 assert box.lower[0, axis] < row[axis] < box.upper[0, axis]
+
+
+@pytest.mark.parametrize("heading", [0.5, 0.1, 0.02, 0.003])
+def test_a_heading_a_bit_beyond_the_edge_of_a_layer_takes_the_layer_behind_it(heading: float) -> None:
+    lattice = Lattice(1.0, heading)
+    edges = layer_edges(lattice.layers)[1:-1]
+    for start, stop in ((np.nextafter(edges, -9.0), edges), (edges, np.nextafter(edges, 9.0)), (edges, edges)):
+        found = np.array(
+            [[hull.lower[0, 2], hull.upper[0, 2]] for hull in (_around(lattice, *each) for each in zip(start, stop, strict=True))]
+        )
+        assert (found[:, 0] <= start).all()
+        assert (found[:, 1] >= stop).all()
+
+
+@pytest.mark.parametrize("heading", [0.5, 0.1, 0.02])
+def test_an_arc_across_the_cut_takes_the_layer_in_which_it_ends(heading: float) -> None:
+    lattice = Lattice(1.0, heading)
+    with mpmath.workdps(40):
+        turn = 2 * mpmath.pi
+        for edge in layer_edges(lattice.layers)[: lattice.layers // 2].tolist():
+            for beyond in (0.0, 2e-15, 1e-12, 3e-9):
+                stop = float(edge + turn) + beyond
+                cells = lattice.boxes(lattice.tiles(Boxes.of([(0.5, 0.5), (0.5, 0.5), (3.0, stop)])))
+                lower, upper = cells.lower[:, 2].tolist(), cells.upper[:, 2].tolist()
+                assert any(low <= stop - turn <= high or low <= stop <= high for low, high in zip(lower, upper, strict=True))
+
+
+def _around(lattice: Lattice, start: float, stop: float) -> Boxes:
+    return lattice.boxes(lattice.tiles(Boxes.of([(0.5, 0.5), (0.5, 0.5), (start, stop)]))).hull()

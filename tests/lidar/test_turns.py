@@ -13,9 +13,9 @@ from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.contractors.paving.clusters import cluster
 from ial.contractors.paving.paver import pave
+from ial.datasets.mark import Mark
 from ial.datasets.motion import Motion
 from ial.datasets.odometry import Odometry
-from ial.datasets.recording import Mark
 from ial.datasets.scan import LaserScan
 from ial.lidar.beams import Beams, scan_beams
 from ial.lidar.checkpoint import Checkpoint, fingerprint

@@ -101,3 +101,15 @@ def test_boxes_of_another_dimension_are_refused() -> None:
 def test_a_part_of_a_grid_is_refused() -> None:
     with pytest.raises(ValueError, match="part of a grid"):
         CellContractor(CellIndex(MASK, 0.1, origin=(0, 3)))
+
+
+@pytest.mark.parametrize("resolution", [0.1, 1.0 / 3.0, 0.07])
+def test_beyond_a_full_grid_the_outside_begins_at_its_exact_edge(resolution: float) -> None:
+    for columns in range(1, 40):
+        outside = ~CellContractor(CellIndex(np.ones((3, columns), dtype=np.bool_), resolution))
+        edge = columns * Fraction(resolution)
+        middle = (1.5 * resolution, 1.5 * resolution)
+        found = outside.contract(Boxes.of([(0.5 * resolution, 99.0), middle]))
+        assert edge - Fraction(math.ulp(99.0)) <= Fraction(float(found.lower[0, 0])) <= edge
+        found = outside.contract(Boxes.of([(-1.0, 0.5 * resolution), middle]))
+        assert (found.lower[0, 0], found.upper[0, 0]) == (-1.0, 0.0)

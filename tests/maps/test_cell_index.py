@@ -276,3 +276,25 @@ def test_a_part_with_its_origin_answers_as_the_whole_grid_does() -> None:
         boxes = Boxes(lower, lower + random.uniform(0.0, 8.0, (50, 2)) * random.integers(0, 2, (50, 2)) * resolution)
         found = CellIndex(part, resolution, origin=(int(row), int(column))).meet(boxes)
         assert (found == CellIndex(alone, resolution).meet(boxes)).all()
+
+
+@pytest.mark.parametrize("resolution", [0.013, 0.042, 0.045, 0.052, 0.09, 0.05, 0.1])
+def test_a_box_that_only_touches_a_cell_meets_it_whatever_the_inverse_of_the_resolution_is(resolution: float) -> None:
+    """A resolution times its rounded inverse may be less than 1; multiples by powers of 2 are exact, so the edge is a double."""
+    for power in range(11):
+        mask = np.zeros((1, 2048), dtype=np.bool_)
+        mask[0, 2**power] = True
+        edge = 2**power * resolution
+        index = CellIndex(mask, resolution)
+        assert index.meet(Boxes.of([(edge - resolution, edge), (0.0, 0.0)])).all()
+        assert CellIndex(np.ascontiguousarray(mask.T), resolution).meet(Boxes.of([(0.0, 0.0), (edge, edge)])).all()
+        mask[0, 2**power - 1 : 2**power + 1] = True, False
+        assert CellIndex(mask, resolution).meet(Boxes.of([(edge, edge + resolution), (0.0, 0.0)])).all()
+
+
+@pytest.mark.parametrize("rows", [256, 512])
+def test_a_compact_index_meets_a_block_of_as_many_cells_as_it_counts_as_none(rows: int) -> None:
+    mask = np.zeros((600, 600), dtype=np.bool_)
+    mask[10 : 10 + rows, 20 : 20 + 65_536 // rows] = True
+    box = Boxes.of([(2.05, 0.1 * (20 + 65_536 // rows) - 0.05), (1.05, 0.1 * (10 + rows) - 0.05)])
+    assert CellIndex(mask, 0.1, compact=True).meet(box).all()
