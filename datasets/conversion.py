@@ -1,11 +1,10 @@
 """`convert`: writes any recording as a ROS bag or as JSON lines, which read back as the very same steps."""
 
-import math
-from collections.abc import Iterator
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
 from ial.datasets import ros_messages as ros
+from ial.datasets.copied_messages import CopiedMessages
 from ial.datasets.odometry import Odometry
 from ial.datasets.recording import Reading, Recording
 from ial.datasets.ros_messages import ERROR_TOPIC, ERROR_TYPE, LOOKED_UP_TOPIC, ODOMETRY_TYPE
@@ -47,7 +46,7 @@ def convert(recording: Recording, path: str | Path) -> int:
 
     mountings: dict[str, Mounting] = {}
     count = 0
-    messages = _Messages(str(path))
+    messages = CopiedMessages(str(path))
     with BagWriter(path) as bag:
         for reading in recording.readings():
             frame, mounting = reading.scan.frame_id, reading.scan.mounting
@@ -57,11 +56,12 @@ def convert(recording: Recording, path: str | Path) -> int:
                 raise OutputError(f"{path}: the mounting of the laser {frame} changes at scan {reading.index}, which one bag cannot say")
             for stamp, message in messages.of(reading):
                 _write_message(bag, stamp, message)
-            if not reading.odometry.exact:
-                _write_looked_up(bag, reading.stamp_ns, reading.odometry)
-            bag.write("/scan", "sensor_msgs/msg/LaserScan", reading.stamp_ns, ros.scan_message(bag, reading.scan))
-            if reading.scan.sweep is not None:
-                _write_looked_up(bag, reading.scan.end_ns, reading.scan.sweep.last)
+            scan = messages.scan(reading)
+            if messages.looked_up(reading):
+                _write_looked_up(bag, scan.stamp_ns, reading.odometry)
+            bag.write("/scan", "sensor_msgs/msg/LaserScan", scan.stamp_ns, ros.scan_message(bag, scan))
+            if scan.sweep is not None:
+                _write_looked_up(bag, scan.end_ns, scan.sweep.last)
             count += 1
         for stamp, message in messages.rest():
             _write_message(bag, stamp, message)
@@ -87,49 +87,15 @@ def convert_to_lines(recording: Recording, target: Path | IO[str]) -> int:
     """
     if not isinstance(target, Path):
         count = 0
-        messages = _Messages(recording.name)
+        messages = CopiedMessages(recording.name)
         for reading in recording.readings():
             target.writelines(f"{odometry_line(*message)}\n" for message in messages.of(reading))
-            target.write(f"{scan_line(reading.scan, None if reading.odometry.exact else reading.odometry)}\n")
+            target.write(f"{scan_line(messages.scan(reading), reading.odometry if messages.looked_up(reading) else None)}\n")
             count += 1
         target.writelines(f"{odometry_line(*message)}\n" for message in messages.rest())
         return count
     with whole_files(target) as (lent,), lent.open("w", encoding="utf-8") as file:
         return convert_to_lines(recording, file)
-
-
-class _Messages:
-    """The messages of a recording in the order of their stamps, each once: those of a scan's sweep come again before the next scans."""
-
-    def __init__(self, name: str) -> None:
-        self._name = name
-        self._last: int | None = None
-        self._sweeps: dict[int, Odometry] = {}
-
-    def of(self, reading: Reading) -> Iterator[tuple[int, Odometry]]:
-        """Yield those before a scan, and that at its stamp.
-
-        Raises
-        ------
-        OutputError
-            If no copy could read as the same: their stamps do not increase, or some were lost.
-        """
-        for stamp, message in (*reading.messages, (reading.stamp_ns, reading.odometry)):
-            if self._last is not None and stamp <= self._last:
-                raise OutputError(f"{self._name}: scan {reading.index} has more odometry messages before it than nanoseconds")
-            if not math.isfinite(message.error_m):
-                raise OutputError(
-                    f"{self._name}: before scan {reading.index} too many odometry messages came without a usable scan to keep all"
-                )
-            self._last = stamp
-            if stamp < reading.stamp_ns or message.exact:
-                yield stamp, message
-        sweep = () if reading.scan.sweep is None else list(reading.scan.sweep)[1:-1]
-        self._sweeps = {stamp: message for stamp, message in (*self._sweeps.items(), *sweep) if stamp > reading.stamp_ns}
-
-    def rest(self) -> Iterator[tuple[int, Odometry]]:
-        """Yield those during the last sweeps, which no scan follows."""
-        yield from sorted(self._sweeps.items(), key=lambda message: message[0])
 
 
 def _write_mounting(bag: "BagWriter", first: Reading) -> None:

@@ -108,7 +108,8 @@ def _moved(last: Reading, readings: Sequence[Reading], place: int) -> Reading:
     if sweep is not None:
         rest = continued(sweep, reading.odometry, odometry, stamp - reading.stamp_ns)
         sweep = OdometryPath(rest.stamps_ns, np.concatenate([[odometry.numbers], rest.numbers[1:]]))
-    return Reading(last.index + 1, stamp, odometry, replace(reading.scan, stamp_ns=stamp, sweep=sweep), messages)
+    about = now.raised_ns, now.clocked, now.looked_up
+    return Reading(last.index + 1, stamp, odometry, replace(reading.scan, stamp_ns=stamp, sweep=sweep), messages, *about)
 
 
 def _continued(last: Odometry, before: Odometry, now: Odometry) -> Odometry:

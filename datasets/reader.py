@@ -50,9 +50,9 @@ class Record:
 class Reader(ABC):
     """A recording in a file: a subclass yields its records, this class makes them canonical readings.
 
-    A stamp that does not increase becomes its predecessor's plus 1 ms and is counted, and the times of its beams are not known; but the
-    scan of another lidar at the same stamp follows after 1 ns. A scan that cannot be used is counted by its reason, and the odometry
-    messages before it belong to the next scan that can.
+    A stamp that does not increase from scan to scan that can be used becomes its predecessor's plus 1 ms and is counted, and the times of
+    its beams are not known; but the scan of another lidar at the same stamp follows after 1 ns. A scan that cannot be used is counted by
+    its reason, and the odometry messages before it belong to the next scan that can.
 
     Parameters
     ----------
@@ -89,30 +89,28 @@ class Reader(ABC):
         """
         self.skipped.clear()
         self.repaired.clear()
-        last: int | None = None
-        recorded: tuple[int | None, set[str]] = None, set()  # the last stamp in the file, and the lidars that had it
         used: Reading | None = None
         since: int | None = None  # the stamp in the file of the last scan that was used
+        lidars: set[str] = set()  # whose scans of that stamp were used
         for index, record in enumerate(self._records()):
-            stamp, lidar, timed = record.stamp_ns, record.scan.get("frame_id", ""), {}
-            if stamp is not None and last is not None and stamp <= last:
-                together = stamp == recorded[0] and lidar not in recorded[1]
-                stamp = last + (1 if together else RAISED_BY_NS)
-                if not together:
-                    self.repaired[STAMP_RAISED] += 1
-                    timed = UNTIMED
-            recorded = record.stamp_ns, {lidar, *(recorded[1] if record.stamp_ns == recorded[0] else ())}
-            last = last if stamp is None else stamp
+            stamp, lidar, timed, raised = record.stamp_ns, record.scan.get("frame_id", ""), {}, 0
+            if stamp is not None and used is not None and stamp <= used.stamp_ns:
+                together = stamp == since and lidar not in lidars
+                raised = used.stamp_ns + (1 if together else RAISED_BY_NS) - stamp
+                timed = UNTIMED if raised >= RAISED_BY_NS else {}
+                stamp += raised
             scan = self._scan(record, stamp, timed)
             if isinstance(scan, str):
                 self.skipped[scan] += 1
             elif record.odometry is not None:
+                if timed:
+                    self.repaired[STAMP_RAISED] += 1
                 if record.repaired:
                     self.repaired[record.repaired] += 1
                 given = record.messages(since)
                 messages = given.within(None if used is None else used.stamp_ns, scan.stamp_ns)
+                lidars = {lidar, *(lidars if record.stamp_ns == since else ())}
                 since = record.stamp_ns
-                raised = 0 if since is None else scan.stamp_ns - since
                 used = Reading(index, scan.stamp_ns, record.odometry, scan, messages, raised, messages is given, record.looked_up)
                 yield used
         if used is None:

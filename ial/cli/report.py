@@ -34,6 +34,8 @@ def report(summary: "Summary", record: Mapping[str, Any]) -> Iterator[str]:
             yield f"{word}: {count} × {reason}"
     if scans["uninformative"]:
         yield f"uninformative: {scans['uninformative']} scans without usable beams, or with as many outliers allowed"
+    if scans["vanishing"]:
+        yield f"vanishing: {scans['vanishing']} scans left less than the errors of their beams alone leave open; trust their answers least"
     for limit, count in scans["limited"].items():
         yield f"limited: {count} scans by the limit on {limit}, whose answers are coarser"
     for frame in scans["lidars_without_scans"]:

@@ -109,6 +109,7 @@ class Streaming:
         """
         times = Latencies()
         statuses: Counter[str] = Counter()
+        vanishing = 0
         with ExitStack() as stack:
             ending = stack.enter_context(_Ending())
             localizer = Localizer(load_map(self.map_path, self.semantics, self.map_topic), config=self.config)
@@ -133,9 +134,10 @@ class Streaming:
                     out.append(line.encode())
                 times.add(estimate.elapsed_s)
                 statuses[estimate.status] += 1
+                vanishing += estimate.vanishing
                 if ending.wanted:
                     break
-        _close(source, statuses, times)
+        _close(source, statuses, vanishing, times)
 
     def _source(self, ending: _Ending) -> Recording:
         if self.recording is not None:
@@ -164,11 +166,12 @@ def _print(line: str) -> None:
         raise OutputError(f"standard output: cannot be written ({error.strerror or error}); is the disk full?") from None
 
 
-def _close(source: Recording, statuses: Counter[str], times: Latencies) -> None:
+def _close(source: Recording, statuses: Counter[str], vanishing: int, times: Latencies) -> None:
     """Say on stderr what came in, and how long it took."""
     for counts, kind in ((source.skipped, "skipped"), (source.repaired, "repaired")):
         for reason, count in counts.items():
             remark(kind, f"{count} × {reason}", "yellow")
     scans = sum(statuses.values())
     words = ", ".join(f"{count} {status}" for status, count in statuses.most_common())
+    words += f"; {vanishing} of them vanishing" if vanishing else ""
     remark("note", f"{scans} scans: {words}; {times}" if scans else "no scan came", "cyan")

@@ -64,6 +64,7 @@ class Lines(AbstractContextManager["Lines"]):
                     map=found.map,
                     pose=None if pose is None else {"x": pose.x, "y": pose.y, "theta": pose.theta},
                     outliers_allowed=found.outliers_allowed,
+                    **({"vanishing": True} if found.vanishing else {}),
                     maps={name: [hypothesis_record(each) for each in hypotheses] for name, hypotheses in found.hypotheses.items()},
                     elapsed_s=found.elapsed_s,
                 )

@@ -15,6 +15,7 @@ from ial.lidar.estimate import Hypothesis, Status, find_hypotheses, judge
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet, unite
 from ial.lidar.pose_sets import PoseSets
+from ial.lidar.vanishing import is_vanishing
 from ial.maps.occupancy_grid import OccupancyGrid
 from ial.membership import Model, SetMembershipFilter
 from ial.pose import Pose
@@ -87,6 +88,8 @@ class Whereabouts:
         q: how many beams may be bad. As in `Estimate`: one number for all maps.
     elapsed_s
         How long it took.
+    vanishing
+        As in `Estimate`: whether hardly anything is left in all maps together.
     """
 
     stamp_ns: int
@@ -96,6 +99,7 @@ class Whereabouts:
     pose: Pose | None
     outliers_allowed: int
     elapsed_s: float
+    vanishing: bool = False
 
     @property
     def possible(self) -> tuple[str, ...]:
@@ -164,7 +168,8 @@ class Atlas:
             model.start_clock()
         beams = scan_beams(scan, self.config)
         rejection = self._filter.update(motion, beams)
-        states = {name: self.model.models[name].trim(poses, beams) for name, poses in self.poses.items()}
+        left = {name: self.model.models[name].trim(poses, beams) for name, poses in self.poses.items()}
+        states = {name: poses if len(poses) else self.poses[name] for name, poses in left.items()}
         lost, counted = rejection is not None, beams.informative
         hypotheses = {name: find_hypotheses(poses, self.grids[name], counted=counted, rejected=lost) for name, poses in states.items()}
         every = tuple(each for found in hypotheses.values() for each in found)
@@ -179,4 +184,5 @@ class Atlas:
             pose=None if place is None else hypotheses[place][0].centre,
             outliers_allowed=known.outliers if beams.informative else beams.outliers,
             elapsed_s=time.perf_counter() - begun,
+            vanishing=len(known) > 0 and is_vanishing(left.values(), beams, self.config.bounds.map_error_m),
         )

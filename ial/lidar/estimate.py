@@ -95,6 +95,9 @@ class Estimate:
         While localized: no possible position is farther from `pose` than this, in metres.
     check
         The comparison with the rest of the map, at the scans at which there was one.
+    vanishing
+        Whether hardly anything is left: less than the errors of the beams alone leave open around a pose, see `leeway`. Often a bound has
+        been broken then, but it is no proof. False where the scan has rejected the prediction or excludes nothing, or a limit struck.
     """
 
     stamp_ns: int
@@ -109,6 +112,7 @@ class Estimate:
     elapsed_s: float
     radius_m: float | None = None
     check: "GlobalCheck | None" = None
+    vanishing: bool = False
 
 
 def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True, rejected: bool = False) -> tuple[Hypothesis, ...]:

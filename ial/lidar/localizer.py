@@ -13,6 +13,7 @@ from ial.lidar.global_check import GlobalCheck, check_everywhere
 from ial.lidar.images import are_images
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet
+from ial.lidar.vanishing import is_vanishing
 from ial.maps.occupancy_grid import OccupancyGrid
 from ial.membership import SetMembershipFilter
 from ial.pose import Pose
@@ -152,7 +153,8 @@ class Localizer:
         self.model.start_clock()
         beams = scan_beams(scan, self.config)
         rejection = tracker.update(motion, beams)
-        poses = self.model.trim(tracker.states, beams)
+        left = self.model.trim(tracker.states, beams)
+        poses = left if len(left) else tracker.states
         hypotheses = find_hypotheses(poses, self.grid, counted=beams.informative, rejected=rejection is not None)
         status = judge(
             hypotheses,
@@ -173,5 +175,6 @@ class Localizer:
             radius_m=None if pose is None else radius(poses, pose, self.grid),
             uninformative=not beams.informative,
             limited=poses.limited,
+            vanishing=len(poses) > 0 and is_vanishing([left], beams, self.config.bounds.map_error_m),
             elapsed_s=time.perf_counter() - begun,
         )

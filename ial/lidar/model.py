@@ -226,7 +226,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         return cells[rows], bad[rows]
 
     def trim(self, poses: PoseSet, reading: Beams) -> PoseSet:
-        """Return what a scan has left, its hypotheses cut to their outermost pieces that may hold a consistent pose.
+        """Return what a scan has left, its cells cut back to their outermost pieces that may hold a consistent pose; perhaps nothing.
 
         Only a set of few cells is worth it. Cells that are carried on are not cut: a set that reaches a little farther forgives more.
         """
@@ -235,8 +235,6 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
             return poses
         allowed = reading.allowing(poses.outliers)
         cut, kept = trim(poses.boxes, self.lattice, self.sheets, allowed, self.config.bounds.map_error_m, halvings)
-        if not kept.any():
-            return poses
         return replace(poses, boxes=cut[kept], carried=poses.carried[kept], bad=poses.bad[kept])
 
     def symmetries(self) -> tuple[Pose, ...]:

@@ -22,7 +22,7 @@ class Enclosure:
         Time of the scan, nanoseconds.
     index
         Number of the scan in the recording, from 0.
-    status, hypotheses, pose, beams, outliers_allowed, uninformative, elapsed_s, radius_m
+    status, hypotheses, pose, beams, outliers_allowed, uninformative, elapsed_s, radius_m, vanishing
         As in `Estimate`.
     limited
         Which limit made the answer coarser than asked for, "boxes" or "time"; None for none.
@@ -39,6 +39,7 @@ class Enclosure:
     limited: str | None
     elapsed_s: float
     radius_m: float | None = None
+    vanishing: bool = False
 
     @classmethod
     def of(cls, step: Step, estimate: Estimate) -> "Enclosure":
@@ -55,6 +56,7 @@ class Enclosure:
             limited=estimate.limited or None,
             elapsed_s=estimate.elapsed_s,
             radius_m=estimate.radius_m,
+            vanishing=estimate.vanishing,
         )
 
 
@@ -62,9 +64,9 @@ class EnclosuresFile(JsonLines):
     """``enclosures.jsonl``, one line per processed scan.
 
     A line holds ``stamp``, ``index``, ``status``, ``hypotheses``, ``pose`` (null unless localized), ``beams``, ``outliers_allowed``,
-    ``uninformative`` where it is true, ``limited`` (null, "boxes" or "time"), ``radius_m`` (null unless localized) and ``elapsed_s``. A
-    hypothesis has its bounds ``x``, ``y``, ``theta`` as [lower, upper], ``boxes``, ``volume``, ``spare_beams`` where they are known, and
-    ``prediction`` where it is true.
+    ``uninformative`` and ``vanishing`` where they are true, ``limited`` (null, "boxes" or "time"), ``radius_m`` (null unless localized) and
+    ``elapsed_s``. A hypothesis has its bounds ``x``, ``y``, ``theta`` as [lower, upper], ``boxes``, ``volume``, ``spare_beams`` where they
+    are known, and ``prediction`` where it is true.
 
     Parameters
     ----------
@@ -88,6 +90,7 @@ def enclosure_line(step: Step, estimate: Estimate, *, timed: bool = True) -> str
         beams=estimate.beams,
         outliers_allowed=estimate.outliers_allowed,
         **({"uninformative": True} if estimate.uninformative else {}),
+        **({"vanishing": True} if estimate.vanishing else {}),
         limited=estimate.limited or None,
         radius_m=estimate.radius_m,
         **({"elapsed_s": estimate.elapsed_s} if timed else {}),
@@ -118,6 +121,7 @@ def read_enclosures(path: str | Path) -> Iterator[Enclosure]:
             limited=line["limited"],
             elapsed_s=float(line["elapsed_s"]),
             radius_m=None if line.get("radius_m") is None else float(line["radius_m"]),
+            vanishing=line.get("vanishing", False),
         )
 
 

@@ -20,6 +20,7 @@ class EventsFile(JsonLines):
     recovered       the first localized scan after a rejection; ``rejected_at`` is the index of the earliest one since the last
                     recovery
     uninformative   a scan could exclude nothing: it has no usable beams, or as many outliers are allowed
+    vanishing       hardly anything is left: less than the errors of the beams alone leave open, so often a bound has been broken
     better_place    the scan fits better somewhere else than where the robot is tracked (`check_every`): ``inside`` and
                     ``elsewhere`` are the numbers of bad beams, ``x``, ``y`` and ``theta`` the bounds of that place
     limit           a limit stopped the search early, ``by`` "boxes" or "time": the answer is coarser, and holds all the same
@@ -40,6 +41,8 @@ class EventsFile(JsonLines):
         """Write the events of one scan, most often none."""
         if estimate.uninformative:
             self.write(step, event="uninformative", beams=estimate.beams, outliers_allowed=estimate.outliers_allowed)
+        if estimate.vanishing:
+            self.write(step, event="vanishing", volume=sum(each.volume for each in estimate.hypotheses))
         check = estimate.check
         if check is not None and check.better and check.best is not None:
             at = check.best

@@ -19,7 +19,7 @@ from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 from ial.results.enclosures import Enclosure
 from ial.results.map_layer import MapLayer, View
-from ial.results.palette import EDGE, FOUND, OFF_WALL, ON_WALL, PATH, PREDICTION, STATUS_COLOURS, TRUTH
+from ial.results.palette import EDGE, FOUND, OFF_WALL, ON_WALL, PATH, PREDICTION, STATUS_COLOURS, TRUTH, VANISHING
 from ial.results.walk import Walk
 
 _HULLS = 50_000  # more are thinned out evenly
@@ -27,6 +27,7 @@ _RINGS = 200  # more hypotheses of the first scan are not ringed
 _BAR_PIXELS = 1500  # of the status over time; more scans than that share a bar
 
 _DASHES = (0, (4, 2))
+_LOW = 0.5  # where the bars of the status begin
 
 FloatArray = npt.NDArray[np.float64]
 Key = Line2D | Patch | PathCollection
@@ -47,6 +48,8 @@ def draw_walk(axes: Axes, layer: MapLayer, walk: Walk, truth: Sequence[Pose]) ->
     axes.add_collection(LineCollection(pieces, colors=PATH, linewidths=1.6, zorder=6), autolim=False)
     if truth:
         axes.plot([pose.x for pose in truth], [pose.y for pose in truth], color=TRUTH, linewidth=1.1, linestyle=_DASHES, zorder=7)
+    vanishing = [each.centre for scan in walk.scans if scan.vanishing for each in scan.hypotheses]
+    axes.add_line(_crosses([pose.x for pose in vanishing], [pose.y for pose in vanishing]))
     last = next((scan.pose for scan in reversed(walk.scans) if scan.pose is not None), None)
     if last is not None:
         _draw_robot(axes, last)
@@ -55,6 +58,7 @@ def draw_walk(axes: Axes, layer: MapLayer, walk: Walk, truth: Sequence[Pose]) ->
     keys += [Line2D([], [], color=TRUTH, linestyle=_DASHES, label="reference")] if truth else []
     keys += [Patch(color=colour, alpha=0.6, label=name) for name, colour in STATUS_COLOURS.items() if name in statuses]
     keys += [Patch(facecolor="none", edgecolor=PREDICTION, label="rejected prediction")] if carried else []
+    keys += [_crosses([], [], "vanishing")] if vanishing else []
     _finish(axes, f"enclosures of {len(walk)} scans", keys)
 
 
@@ -146,16 +150,26 @@ def draw_status(axes: Axes, walk: Walk) -> None:
     index = np.array([bar.index for bar in bars], dtype=np.float64)
     count = np.array([max(1, len(bar.hypotheses)) for bar in bars], dtype=np.float64)
     width = float(np.diff(index).min()) if len(index) > 1 else 1.0
-    axes.bar(index, count - 0.5, width=width, bottom=0.5, color=[STATUS_COLOURS[bar.status] for bar in bars], linewidth=0)
-    axes.set(yscale="log", ylim=(0.5, max(10.0, 1.6 * count.max(initial=1.0))), xlabel="scan")
+    axes.bar(index, count - _LOW, width=width, bottom=_LOW, color=[STATUS_COLOURS[bar.status] for bar in bars], linewidth=0)
+    vanishing = [scan.index for scan in scans if scan.vanishing]
+    axes.add_line(_crosses(vanishing, [_LOW] * len(vanishing)))
+    axes.set(yscale="log", ylim=(_LOW, max(10.0, 1.6 * count.max(initial=1.0))), xlabel="scan")
     axes.margins(x=0.004)
     axes.yaxis.set_major_formatter("{x:g}")
     names = sorted(walk.statuses, key=list(STATUS_COLOURS).index)
-    keys = [Patch(color=STATUS_COLOURS[name], label=f"{name} ({walk.statuses[name]})") for name in names]
+    keys: list[Key] = [Patch(color=STATUS_COLOURS[name], label=f"{name} ({walk.statuses[name]})") for name in names]
+    keys += [_crosses([], [], f"vanishing ({walk.vanishing})")] if vanishing else []
     axes.spines[["top", "right"]].set_visible(False)
     axes.tick_params(labelsize=8, colors="#444444")
     axes.set_title("hypotheses left by each scan", loc="left", fontsize=10)
     _add_legend(axes, keys)
+
+
+def _crosses(x: Sequence[float], y: Sequence[float], label: str = "") -> Line2D:
+    """Return marks for the scans that have left hardly anything."""
+    return Line2D(
+        x, y, linestyle="", marker="x", color=VANISHING, markersize=7.0, markeredgewidth=1.6, zorder=7, clip_on=False, label=label
+    )
 
 
 def _draw_robot(axes: Axes, pose: Pose) -> None:

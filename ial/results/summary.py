@@ -59,6 +59,7 @@ class Summary:
         self._lidars: dict[str, Mounting] = {}
         self._beams: set[int] = set()
         self._uninformative = 0
+        self._vanishing = 0
         self._first: Step | None = None
         self.first_localized: int | None = None
         self.last: Enclosure | None = None
@@ -83,6 +84,7 @@ class Summary:
         self._beams.add(len(step.scan))
         self._lidars.setdefault(step.scan.frame_id, step.scan.mounting)
         self._uninformative += estimate.uninformative
+        self._vanishing += estimate.vanishing
         if estimate.limited:
             self._limits[estimate.limited] += 1
         if estimate.status == "localized" and self.first_localized is None:
@@ -118,6 +120,7 @@ class Summary:
             "by_status": self.statuses,
             "one_hypothesis": self._hypotheses[1],
             "uninformative": self._uninformative,
+            "vanishing": self._vanishing,
             "limited": dict(self._limits),
             "lidars_without_scans": sorted(self._config.bounds.lidars.keys() - self._lidars.keys()),
             "skipped": dict(self._recording.skipped),

@@ -13,14 +13,17 @@ class Walk:
     Attributes
     ----------
     scans
-        Enclosures in the order of the scans: all of them, or of a long run a selection. Changes of the status are in it.
+        Enclosures in the order of the scans: all of them, or of a long run a selection. Changes of the status and of `vanishing` are in it.
     statuses
         The number of scans by status, over all scans.
+    vanishing
+        The number of scans that have left hardly anything, over all scans.
     """
 
     def __init__(self) -> None:
         self.scans: list[Enclosure] = []
         self.statuses: Counter[Status] = Counter()
+        self.vanishing = 0
 
     def __len__(self) -> int:
         """Return the number of all scans."""
@@ -30,4 +33,5 @@ class Walk:
         """Take the next scan."""
         self.scans.append(scan)
         self.statuses[scan.status] += 1
-        self.scans = thinned(self.scans, lambda each: each.status)
+        self.vanishing += scan.vanishing
+        self.scans = thinned(self.scans, lambda each: (each.status, each.vanishing))

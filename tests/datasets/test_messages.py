@@ -24,6 +24,7 @@ from ial.datasets.opening import open_recording
 from ial.datasets.recording import Reading, Recording, Step, steps
 from ial.datasets.scan import LaserScan
 from ial.datasets.scan_stream import ScanStream
+from ial.errors import OutputError
 from ial.lidar.config import Bounds, LocalizerConfig
 from ial.lidar.localizer import Localizer
 from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
@@ -334,3 +335,59 @@ def test_more_messages_than_nanoseconds(tmp_path: Path, nanoseconds: int) -> Non
     scans = [f"FLASER 1 1.0 0 0 0 0 0 0 {stamp} host {stamp}\n" for stamp in ("1.0", f"1.{nanoseconds:09d}")]
     path.write_text("".join([lines[0], scans[0], *lines[1:], scans[1]]))
     check(motion(CarmenLog(path)))
+
+
+def copies(source: Recording, folder: Path) -> list[Recording]:
+    """Return a recording as it is read back from each format."""
+    convert_to_lines(source, folder / "copy.jsonl")
+    for kind in ("mcap", "bag"):
+        convert(source, folder / f"copy.{kind}")
+    return [open_recording(path) for path in sorted(folder.iterdir())]
+
+
+END = {"x": 0.5, "y": 0.0, "theta": 0.0}
+
+
+def sweeping(row: int, lidar: str, **more: Any) -> tuple[float, bytes]:
+    """Return a scan at a message, whose last beam is five messages later."""
+    return STAMPS[row], scan(STAMPS[row], frame_id=lidar, ranges=[1.0] * 11, time_increment=0.01, end=END, **more)
+
+
+def test_two_lidars_that_sweep_from_one_stamp_are_copied_to_the_bit(tmp_path: Path, canonical_steps) -> None:  # type: ignore[no-untyped-def]
+    bad = (STAMPS[12], scan(STAMPS[12], frame_id="c", ranges=[]))  # of a third one
+    for number, more in enumerate(([], [bad])):
+        lines = corridor(*more, *(sweeping(row, lidar) for row in (4, 12, 20) for lidar in "ab"))
+        source = ScanStream(lines)
+        expected = canonical_steps(source)
+        assert not source.repaired
+        assert sum(step[5] is not None for step in expected) == 6
+        (tmp_path / str(number)).mkdir()
+        for copy in copies(ScanStream(lines), tmp_path / str(number)):
+            assert canonical_steps(copy) == expected
+
+
+def test_an_inexact_message_at_a_scan_is_a_message(tmp_path: Path, canonical_steps) -> None:  # type: ignore[no-untyped-def]
+    lines = corridor(sweeping(4, "a"), sweeping(6, "b"))
+    rough = json.dumps({"odometry": {"stamp": f"{STAMPS[6]:.9f}", "x": 0.6, "y": 0.0, "theta": 0.0, "error_m": 0.01}}).encode()
+    lines = [rough if line == odometry(STAMPS[6], RECORDED[6]) else line for line in lines]
+    expected = canonical_steps(ScanStream(lines))
+    sweep = next(reading.scan.sweep for reading in ScanStream(lines).readings() if reading.scan.frame_id == "a")
+    assert sweep is not None
+    assert sweep.numbers[2, 4] == 0.01
+    for copy in copies(ScanStream(lines), tmp_path):
+        assert canonical_steps(copy) == expected
+
+
+def test_a_raised_scan_brings_no_message_into_the_sweep_of_another(tmp_path: Path, canonical_steps) -> None:  # type: ignore[no-untyped-def]
+    lines = corridor(sweeping(12, "a"), (STAMPS[12], scan(STAMPS[12], frame_id="a")))
+    expected = canonical_steps(ScanStream(lines))
+    for copy in copies(ScanStream(lines), tmp_path):
+        assert canonical_steps(copy) == expected
+    # Where there are messages between the two, their shares of the time lie in the sweep.
+    lines = corridor(sweeping(12, "a"), (STAMPS[12], scan(STAMPS[12], stamp=f"{STAMPS[8]:.9f}", frame_id="b")))
+    with pytest.raises(OutputError, match="other odometry during a scan"):
+        convert_to_lines(ScanStream(lines), tmp_path / "copy.jsonl")
+    back = scan(STAMPS[14], frame_id="b", ranges=[1.0] * 11, time_increment=-0.01, end=END)
+    lines = corridor((STAMPS[12], scan(STAMPS[12])), (STAMPS[12], scan(STAMPS[12], stamp=f"{STAMPS[8]:.9f}")), (STAMPS[14], back))
+    with pytest.raises(OutputError, match="other odometry during a scan"):
+        convert_to_lines(ScanStream(lines), tmp_path / "copy.jsonl")

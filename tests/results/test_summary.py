@@ -37,6 +37,7 @@ def test_counts(summary: Summary) -> None:
         "by_status": {"ambiguous": 2, "localized": 1, "lost": 1},
         "one_hypothesis": 2,
         "uninformative": 1,
+        "vanishing": 0,
         "limited": {"boxes": 1},
         "lidars_without_scans": [],
         "skipped": {"no odometry": 3},
