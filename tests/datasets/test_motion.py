@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from fractions import Fraction
 
 import mpmath
 import numpy as np
@@ -194,3 +195,17 @@ def test_a_robot_that_cannot_drive_sideways_has_a_bound_of_its_own_for_that() ->
     assert half == pytest.approx([0.3, 0.1, 0.1])
     plain = MotionBounds(bounds.translation, bounds.rotation).enclose(Pose(1.0, 0.0, 0.1))
     assert 0.5 * (plain.upper - plain.lower) == pytest.approx([0.3, 0.3, 0.1])
+
+
+def test_a_motion_is_widened_outward_by_the_part_of_a_scan() -> None:
+    random = np.random.default_rng(2)
+    for _ in range(200):
+        delta, halves = random.uniform(-3.0, 3.0, 3).tolist(), random.uniform(0.0, 1.0, 2).tolist()
+        bounds = MotionBounds(ErrorBound(per_scan=halves[0]), ErrorBound(per_scan=halves[1] / 10.0))
+        motion = bounds.enclose(Pose(*delta))
+        turned = Pose(*delta).theta
+        for axis, (value, half) in enumerate(((delta[0], halves[0]), (delta[1], halves[0]), (turned, halves[1] / 10.0))):
+            shift = round(float(motion.lower[axis] - value + half) / (2.0 * math.pi)) if axis == 2 else 0
+            if not shift:
+                assert Fraction(float(motion.lower[axis])) <= Fraction(value) - Fraction(half)
+                assert Fraction(value) + Fraction(half) <= Fraction(float(motion.upper[axis]))

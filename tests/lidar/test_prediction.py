@@ -8,7 +8,7 @@ from ial.contractors.boxes import Boxes, FloatArray
 from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.contractors.threads import set_threads
 from ial.datasets.motion import Motion
-from ial.lidar.prediction import move
+from ial.lidar.prediction import in_rows, move
 
 mpmath.mp.prec = 300
 TURN = 2 * mpmath.pi
@@ -111,3 +111,18 @@ def test_the_number_of_threads_changes_no_bit() -> None:
         found.append((after.lower.tobytes(), after.upper.tobytes()))
     set_threads(None)
     assert found[0] == found[1] == found[2]
+
+
+def test_boxes_that_follow_each_other_become_one_row_and_none_is_lost() -> None:
+    random = np.random.default_rng(5)
+    for _ in range(100):
+        edges = np.round(np.cumsum(random.uniform(0.1, 1.0, 9)), 2)
+        rows = []
+        for y in (0.0, 1.0):
+            rows += [[(edges[at], edges[at + 1]), (y, y + 1.0), (0.0, 0.5)] for at in range(8) if random.random() < 0.7]
+        boxes = Boxes.of(*rows, [(7.0, 9.0), (3.0, 4.0), (0.0, 0.5)])
+        found = in_rows(boxes)
+        assert len(found) <= len(boxes)
+        for lower, upper in zip(boxes.lower, boxes.upper, strict=True):
+            assert ((found.lower <= lower) & (upper <= found.upper)).all(axis=1).any()
+        assert found.volume() == pytest.approx(boxes.volume())
