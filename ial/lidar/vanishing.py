@@ -34,13 +34,12 @@ def is_vanishing(left: Iterable[PoseSet], beams: Beams, map_error_m: float) -> b
 def leeway(beams: Beams, map_error_m: float) -> float:
     """Return the volume of poses (m² rad) that the stated errors of a scan's beams leave open around a pose.
 
-    A beam that is right to the last digit stays good while its end moves by no more than the errors of range and map together, e. So does
-    the mean beam, of length d and with a bearing error β, while the robot is moved by up to e along x and y, and turned by up to β + e / d:
-    the volume is (2e)² · 2(β + e / d).
+    With e for the errors of range and map together, a robot that is moved by ±e along x or y moves the ends of its beams by as much as the
+    errors explain, and so it does if it is turned by ±(β + e / d), where d is the mean length of a beam and β its bearing error. The volume
+    is that of these three together, (2e)² · 2(β + e / d).
 
-    Where the truth keeps its bounds and the scan has a margin of beams to spare, this much or more is left around it as a rule. An answer
-    below it holds only poses at which the beams that are allowed to be bad hardly suffice: it is about to vanish, as it does where a bound
-    was broken and the truth has been lost. That is no proof; `bench/vanishing.py` counts how often it is so.
+    As a rule more than that is left around a pose that keeps its bounds. Of less, the number of bad beams is the cause: the answer is about
+    to vanish, since hardly any pose explains the scan. That is no proof; `bench/vanishing.py` counts how often the truth is lost then.
 
     Parameters
     ----------

@@ -37,6 +37,7 @@ def test_a_run_reads_back_to_the_last_bit(sample_run: list[Any], tmp_path: Path)
     prediction=st.booleans(),
     stamp=st.integers(-(2**62), 2**62),
     spare=st.none() | st.integers(0, 1000),
+    vanishing=st.booleans(),
 )
 def test_any_numbers_read_back_to_the_last_bit(
     sample_run: list[Any],
@@ -49,11 +50,12 @@ def test_any_numbers_read_back_to_the_last_bit(
     prediction: bool,
     stamp: int,
     spare: int | None,
+    vanishing: bool,
 ) -> None:
     step, estimate = sample_run[-1]
     step, estimate = (
         replace(step, stamp_ns=stamp),
-        replace(estimate, hypotheses=(Hypothesis(x, y, theta, boxes, volume, prediction, spare),)),
+        replace(estimate, hypotheses=(Hypothesis(x, y, theta, boxes, volume, prediction, spare),), vanishing=vanishing),
     )
     path = written(tmp_path_factory.mktemp("lines") / "enclosures.jsonl", [(step, estimate)])
     assert list(read_enclosures(path)) == [Enclosure.of(step, estimate)]
@@ -64,7 +66,7 @@ def test_a_line_holds_what_the_format_promises(estimate_of: Callable[..., Any], 
     run = [
         estimate_of(4, box),
         estimate_of(6, box, status="blind", carried=True, limited="time", uninformative=True),
-        estimate_of(7, box, status="localized"),
+        estimate_of(7, box, status="localized", vanishing=True),
     ]
     first, second, third = map(json.loads, written(tmp_path / "enclosures.jsonl", run).read_text().splitlines())
     keys = ["stamp", "index", "status", "hypotheses", "pose", "beams", "outliers_allowed", "limited", "radius_m", "elapsed_s"]
@@ -72,6 +74,7 @@ def test_a_line_holds_what_the_format_promises(estimate_of: Callable[..., Any], 
     assert (first["index"], first["status"], first["pose"], first["limited"]) == (4, "ambiguous", None, None)
     assert list(first["hypotheses"][0]) == ["x", "y", "theta", "boxes", "volume", "spare_beams"]
     assert (second["limited"], second["uninformative"], second["hypotheses"][0]["prediction"]) == ("time", True, True)
+    assert (third["vanishing"], "vanishing" in first, "vanishing" in second) == (True, False, False)
     assert third["pose"] == vars(run[2][1].pose)
     assert math.isclose(third["hypotheses"][0]["volume"], 0.05)
 

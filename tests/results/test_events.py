@@ -3,6 +3,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from ial.results.events import EventsFile
 
 BOX = [(1.0, 1.2), (3.0, 3.2), (0.1, 0.2)]
@@ -37,6 +39,12 @@ def test_limits_and_scans_that_say_nothing(estimate_of: Callable[..., Any], tmp_
         (1, "uninformative", None, 0),
         (2, "limit", "time", None),
     ]
+
+
+def test_an_answer_that_is_about_to_vanish(estimate_of: Callable[..., Any], tmp_path: Path) -> None:
+    found = events(tmp_path / "events.jsonl", [estimate_of(3, BOX), estimate_of(5, BOX, vanishing=True)])
+    assert [(event["index"], event["event"]) for event in found] == [(5, "vanishing")]
+    assert found[0]["volume"] == pytest.approx(0.004)
 
 
 def test_nothing_happened(estimate_of: Callable[..., Any], tmp_path: Path) -> None:

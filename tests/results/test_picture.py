@@ -10,7 +10,7 @@ import pytest
 from ial.datasets.sample import sample_grid
 from ial.maps.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
-from ial.results.palette import PATH, STATUS_COLOURS, TRUTH, rgb
+from ial.results.palette import PATH, STATUS_COLOURS, TRUTH, VANISHING, rgb
 from ial.results.picture import Picture
 
 BOX = [(1.0, 1.6), (3.0, 3.4), (0.1, 0.2)]
@@ -56,6 +56,12 @@ def test_runs_of_any_length(estimate_of: Callable[..., Any], grid: OccupancyGrid
 
 def test_a_scan_that_left_no_pose(estimate_of: Callable[..., Any], grid: OccupancyGrid, tmp_path: Path) -> None:
     assert has(drawn(tmp_path / "picture.png", grid, [estimate_of(0, status="blind")]), STATUS_COLOURS["blind"])
+
+
+def test_vanishing_scans_are_marked(estimate_of: Callable[..., Any], grid: OccupancyGrid, tmp_path: Path) -> None:
+    for marked in (False, True):
+        run = [estimate_of(0, BOX, status="localized"), estimate_of(1, BOX, status="localized", vanishing=marked)]
+        assert has(drawn(tmp_path / "picture.png", grid, run), VANISHING) is marked
 
 
 def test_an_interrupted_run_draws_nothing(grid: OccupancyGrid, tmp_path: Path) -> None:

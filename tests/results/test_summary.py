@@ -19,7 +19,7 @@ FAR = [(4.0, 4.2), (3.0, 3.2), (0.1, 0.2)]
 def summary(estimate_of: Callable[..., Any], grid: OccupancyGrid) -> Summary:
     run = [
         estimate_of(1, BOX, FAR, elapsed_s=0.4),
-        estimate_of(3, BOX, status="localized", elapsed_s=0.1),
+        estimate_of(3, BOX, status="localized", elapsed_s=0.1, vanishing=True),
         estimate_of(5, BOX, FAR, status="lost", limited="boxes", elapsed_s=0.2),
         estimate_of(7, BOX, uninformative=True, elapsed_s=0.1),
     ]
@@ -37,7 +37,7 @@ def test_counts(summary: Summary) -> None:
         "by_status": {"ambiguous": 2, "localized": 1, "lost": 1},
         "one_hypothesis": 2,
         "uninformative": 1,
-        "vanishing": 0,
+        "vanishing": 1,
         "limited": {"boxes": 1},
         "lidars_without_scans": [],
         "skipped": {"no odometry": 3},

@@ -14,9 +14,12 @@ def test_every_scan_is_counted_and_few_are_kept(estimate_of: Callable[..., Any],
     monkeypatch.setattr(thinning, "MOST", 30)
     walk = Walk()
     for number in range(200):
-        walk.add(Enclosure.of(*estimate_of(number, BOX, status="lost" if number == 101 else "localized")))
+        status = "lost" if number == 101 else "localized"
+        walk.add(Enclosure.of(*estimate_of(number, BOX, status=status, vanishing=number == 51)))
     assert len(walk) == 200
     assert walk.statuses == {"localized": 199, "lost": 1}
+    assert walk.vanishing == 1
+    assert [each.index for each in walk.scans if each.vanishing] == [51]
     assert 10 < len(walk.scans) <= 30
     assert walk.scans[0].index == 0
     assert walk.scans[-1].index == 199
