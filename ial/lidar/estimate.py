@@ -36,7 +36,8 @@ class Hypothesis:
     volume
         Sum of the volumes of the boxes (m² rad); a measure, not a bound.
     prediction
-        Whether it comes only from a prediction that a scan has rejected. Of a `lost` or `blind` scan, it is that prediction as it was.
+        Whether it comes only from a prediction that a scan has rejected. Of a `lost` or `blind` scan: whether it holds a part of that
+        prediction, which is as it was.
     spare_beams
         How many more beams might have been bad: at most so many fewer than allowed are bad anywhere in it. None where it is not known.
     """
@@ -127,12 +128,8 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True
     counted
         Whether the last scan has told how many of its beams are bad; one that excludes nothing has not.
     rejected
-        Whether the last scan has rejected the prediction, which is then carried on as it was: groups of what the scan has found and of
-        what it has not cut stay apart, though they touch.
+        Whether the last scan has rejected the prediction, which is then carried on as it was.
     """
-    if rejected:
-        groups = [each for carried in (False, True) for each in find_hypotheses(poses.of_kind(carried=carried), grid, counted=counted)]
-        return tuple(sorted(groups, key=lambda each: -each.volume))
     counted = counted and not poses.limited
     clusters = cluster(poses.boxes, circular=(2,))
     in_map = grid.boxes_to_map(poses.boxes)
@@ -152,7 +149,7 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True
                 theta=(float(theta.lower[label, 2]), float(theta.upper[label, 2])),
                 boxes=len(rows),
                 volume=float(volumes[rows].sum()),
-                prediction=not len(sure),
+                prediction=len(sure) < len(rows) if rejected else not len(sure),
                 spare_beams=poses.outliers - int(poses.bad[sure].min()) if counted and len(sure) else None,
             )
         )

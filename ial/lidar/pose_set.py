@@ -74,11 +74,6 @@ class PoseSet:
         rows = ~np.isin(_names(self.boxes), _names(boxes))
         return replace(self, boxes=self.boxes[rows], carried=self.carried[rows], bad=self.bad[rows])
 
-    def of_kind(self, *, carried: bool) -> "PoseSet":
-        """Return the boxes that are carried on, or the others."""
-        rows = self.carried == carried
-        return replace(self, boxes=self.boxes[rows], carried=self.carried[rows], bad=self.bad[rows])
-
     @property
     def fewest_bad(self) -> int:
         """How many beams of the last scan are bad at least, wherever in the set the robot is."""
