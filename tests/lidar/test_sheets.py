@@ -26,7 +26,7 @@ from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 
 MOTION = MotionBounds(ErrorBound(0.05, 0.1, 0.0), ErrorBound(0.03, 0.0, 0.1))
-CONFIG = LocalizerConfig(bounds=Bounds(0.03, 0.0, 0.02, MOTION), precision=Precision(0.1, 0.05, halvings=0))
+CONFIG = LocalizerConfig(bounds=Bounds(0.03, 0.0, 0.02, MOTION), precision=Precision(0.1, 0.05))
 LIDAR = Lidar(beams=72, angle_min=-math.pi, angle_increment=math.pi / 36.0, range_max=8.0)
 
 

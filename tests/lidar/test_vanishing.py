@@ -1,19 +1,28 @@
 """An answer of which hardly anything is left says so."""
 
 import math
+from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from ial.contractors.boxes import Boxes
 from ial.datasets.motion import Motion
+from ial.datasets.opening import open_recording
+from ial.datasets.recording import steps
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
+from ial.datasets.walk import random_walk
+from ial.lidar.atlas import Atlas
 from ial.lidar.beams import scan_beams
 from ial.lidar.config import Bounds, LocalizerConfig, Precision
+from ial.lidar.estimate import Estimate
 from ial.lidar.localizer import Localizer
 from ial.lidar.pose_set import PoseSet
+from ial.lidar.run import localize
 from ial.lidar.vanishing import is_vanishing, leeway
 from ial.maps.floor_plan import floor_plan
+from ial.maps.map_file import read_map
 from ial.pose import Pose
 
 GRID = floor_plan(9.0, 7.0, 0.05, 3)
@@ -58,3 +67,44 @@ def test_a_tracked_robot_that_has_left_its_bounds_is_flagged() -> None:
         flagged += estimate.vanishing
         localized += estimate.status == "localized"
     assert 0 < flagged < localized
+
+
+def drives(aside_m: float) -> Iterator[tuple[bool, Estimate, bool]]:
+    """Yield the last answers of short drives: whether the truth is held, the estimate, and what an atlas says of it.
+
+    The last motion is wrong by so much.
+    """
+    lidar = Lidar(beams=180, angle_min=-math.pi, angle_increment=math.pi / 90.0, range_max=25.0)
+    wrong = np.array([0.0, aside_m, 0.0])
+    for seed in range(10):
+        world = floor_plan(15.0, 12.0, 0.05, seed)
+        localizer, atlas = Localizer(world), Atlas({"here": world})
+        path = random_walk(world, 4, seed, step_m=0.3, turn_rad=0.3)
+        motion = localizer.config.bounds.motion
+        for step in steps(simulate(world, path, lidar, SensorErrors(0.03, 0.005, 9, adversarial=True), motion, seed).recording, motion):
+            moved = step.motion
+            if moved is not None and step.index == 3:
+                moved = Motion(moved.lower + wrong, moved.upper + wrong)
+            estimate, everywhere = localizer.update(moved, step.scan), atlas.update(moved, step.scan)
+        yield estimate.poses.contains(world.pose_to_grid(path[-1])), estimate, everywhere.vanishing
+
+
+def test_a_prediction_beside_the_truth_leaves_hardly_anything() -> None:
+    found = list(drives(0.6))
+    missed = [estimate.vanishing for held, estimate, _ in found if not held and estimate.status == "localized"]
+    assert len(missed) > 4
+    assert sum(missed) > 0.6 * len(missed)
+    assert [estimate.vanishing for _, estimate, _ in found] == [everywhere for _, _, everywhere in found]
+
+
+def test_answers_seldom_vanish_while_all_bounds_hold() -> None:
+    found = list(drives(0.0))
+    assert all(held for held, _, _ in found)
+    assert sum(estimate.vanishing for _, estimate, _ in found) < 0.3 * len(found)
+
+
+def test_the_recorded_scan_that_asked_for_this(data_folder: Path) -> None:
+    recording = open_recording(data_folder / "intel_lab" / "intel-corrected.log.gz")
+    localizer = Localizer(read_map(data_folder / "intel_lab" / "map_even.yaml"))
+    run = list(localize(recording, localizer, start=731, stop=770, every=2))
+    assert [step.index for step, estimate in run if estimate.vanishing] == [761]
