@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.expressions.functions import hypot
-from ial.contractors.paving.clusters import cluster
+from ial.contractors.margins import ABOVE
 from ial.contractors.paving.limits import Limit
 from ial.lidar.config import LocalizedSize
 from ial.lidar.pose_set import PoseSet
@@ -131,7 +130,7 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True
         Whether the last scan has rejected the prediction, which is then carried on as it was.
     """
     counted = counted and not poses.limited
-    clusters = cluster(poses.boxes, circular=(2,))
+    clusters = poses.clusters
     in_map = grid.boxes_to_map(poses.boxes)
     volumes = np.maximum(poses.boxes.width(), 0.0).prod(axis=1)
     order = np.argsort(clusters.labels, kind="stable")
@@ -158,10 +157,10 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True
 
 def radius(poses: PoseSet, pose: Pose, grid: OccupancyGrid) -> float:
     """Return a distance (m) from a pose in the map frame that no position of a set exceeds, rounded up."""
-    at = grid.boxes_to_grid(Boxes.of([(value, value) for value in (pose.x, pose.y, pose.theta)]))
-    away = Boxes(poses.boxes.lower[:, :2], poses.boxes.upper[:, :2]) - Boxes(at.lower[:, :2], at.upper[:, :2])
-    x, y = zip(away.lower.T, away.upper.T, strict=True)
-    return float(hypot.bounds(x, y)[1].max())
+    at = np.array([[pose.x, pose.y, pose.theta]])
+    there = grid.boxes_to_grid(Boxes(at, at))
+    away = np.maximum(poses.boxes.upper - there.lower, there.upper - poses.boxes.lower)  # from there to the far sides, none below 0
+    return float(np.hypot(away[:, 0], away[:, 1]).max() * ABOVE)
 
 
 def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: bool, found: bool, symmetric: bool = False) -> Status:

@@ -28,6 +28,8 @@ def are_images(boxes: Boxes, symmetries: tuple[Pose, ...], size_m: float) -> boo
     size_m
         How far the map reaches from its corner.
     """
+    if not symmetries:
+        return False
     labels = cluster(boxes, circular=(2,)).labels
     count = int(labels.max(initial=-1)) + 1
     if not 1 < count <= 1 + len(symmetries):

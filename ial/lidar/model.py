@@ -23,7 +23,7 @@ from ial.lidar.pose_set import PoseSet, join, unite
 from ial.lidar.prediction import in_rows, move
 from ial.lidar.sheets import Sheet, Sheets
 from ial.lidar.tiles import Tiles
-from ial.lidar.trimming import trim
+from ial.lidar.trimming import mend, trim
 from ial.maps.occupancy_grid import FREE, UNKNOWN, OccupancyGrid, check_usable
 from ial.maps.symmetry import symmetries
 from ial.membership import Model
@@ -235,7 +235,9 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
             return poses
         allowed = reading.allowing(poses.outliers)
         cut, kept = trim(poses.boxes, self.lattice, self.sheets, allowed, self.config.bounds.map_error_m, halvings)
-        return replace(poses, boxes=cut[kept], carried=poses.carried[kept], bad=poses.bad[kept])
+        left = replace(poses, boxes=cut)[kept]
+        whole = mend(poses.boxes, self.lattice, cut, kept, left.clusters)
+        return left if whole is kept else replace(poses, boxes=cut)[whole]
 
     def symmetries(self) -> tuple[Pose, ...]:
         """Return the rotations of the grid's frame after which no scan can tell the difference."""

@@ -1,5 +1,6 @@
 """`PoseSet`: what the localizer knows, as boxes of poses in the grid's frame."""
 
+import functools
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
@@ -9,6 +10,7 @@ import numpy.typing as npt
 from ial.contractors.angles import wrapped
 from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.angle import contains_angle
+from ial.contractors.paving.clusters import Clusters, cluster
 from ial.contractors.paving.limits import Limit
 from ial.pose import Pose
 
@@ -53,6 +55,15 @@ class PoseSet:
     def __len__(self) -> int:
         return len(self.boxes)
 
+    @functools.cached_property
+    def clusters(self) -> Clusters:
+        """The connected components of the boxes."""
+        return cluster(self.boxes, circular=(2,))
+
+    def __getitem__(self, rows: npt.NDArray[np.bool_]) -> "PoseSet":
+        """Return the set of the boxes that a mask chooses."""
+        return replace(self, boxes=self.boxes[rows], carried=self.carried[rows], bad=self.bad[rows])
+
     def checked(self) -> "PoseSet":
         """Return the set with its headings in the form of `ial.contractors.intervals.angle`.
 
@@ -72,7 +83,7 @@ class PoseSet:
     def without(self, boxes: Boxes) -> "PoseSet":
         """Return the set without those of its boxes that are among others, bit for bit."""
         rows = ~np.isin(_names(self.boxes), _names(boxes))
-        return replace(self, boxes=self.boxes[rows], carried=self.carried[rows], bad=self.bad[rows])
+        return self[rows]
 
     @property
     def fewest_bad(self) -> int:
@@ -81,9 +92,7 @@ class PoseSet:
 
     def within(self, outliers: int) -> "PoseSet":
         """Return the boxes that may hold a pose from which at most so many beams are bad: what a scan that may have so many leaves."""
-        rows = self.bad <= outliers
-        left = replace(self, boxes=self.boxes[rows], carried=self.carried[rows], bad=self.bad[rows])
-        return replace(left, outliers=outliers, accepted=outliers)
+        return replace(self[self.bad <= outliers], outliers=outliers, accepted=outliers)
 
     def contains(self, pose: Pose) -> bool:
         """Return whether a pose, in the grid's frame, lies in one of the boxes; headings are taken modulo 2π."""

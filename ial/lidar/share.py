@@ -1,5 +1,6 @@
 """`Share`: so many of some beams, as a whole number of them or as a part of all."""
 
+import functools
 import math
 from decimal import Decimal
 from fractions import Fraction
@@ -47,4 +48,9 @@ def number_of(share: Share, beams: int) -> int:
     exact = share_of(share)
     if exact is None:
         raise ConfigError(f"{share!r} is no share of the beams; give a whole number of them, or a part from 0.0 to 1.0")
-    return exact if isinstance(exact, int) else math.floor(Fraction(str(exact)) * beams)
+    return exact if isinstance(exact, int) else _whole_part(exact, beams)
+
+
+@functools.lru_cache(maxsize=64, typed=True)  # every scan asks the same; a fraction may equal the double of another decimal
+def _whole_part(part: float | Fraction, beams: int) -> int:
+    return math.floor(Fraction(str(part)) * beams)

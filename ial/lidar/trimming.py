@@ -8,10 +8,10 @@ A cell without such a piece is dropped. Faces between two cells stay where they 
 import numpy as np
 import numpy.typing as npt
 
-from ial.contractors.boxes import Boxes, FloatArray
+from ial.contractors.boxes import Boxes
 from ial.contractors.groups import group_rows
 from ial.contractors.kernels import kernel
-from ial.contractors.paving.clusters import cluster
+from ial.contractors.paving.clusters import Clusters, cluster
 from ial.contractors.threads import run
 from ial.lidar.beams import Beams
 from ial.lidar.corners import OFFSET
@@ -149,8 +149,7 @@ def trim(
 ) -> tuple[Boxes, npt.NDArray[np.bool_]]:
     """Return cells whose outer faces are moved to the outermost pieces that may hold a consistent pose, and which of them are left.
 
-    A cell without such a piece is dropped, and the faces of its neighbours behind it are moved, too. A hypothesis that would fall apart so
-    keeps all of its cells, cut to the hull of what was found in them.
+    A cell without such a piece is dropped, and the faces of its neighbours behind it are moved, too.
 
     Parameters
     ----------
@@ -172,16 +171,11 @@ def trim(
     edges = np.flatnonzero(np.concatenate([[True], np.diff(lower[order, 2]) != 0.0, [True]]))
     evidence = (beams.ends, beams.directions, beams.errors, map_error_m)
     headings = (np.zeros((len(edges) - 1, 2 << depth), dtype=np.bool_), np.empty((len(edges) - 1, 2 << depth, len(beams.ends), 4)))
-    outer = np.zeros((len(cells), 2, 3), dtype=np.bool_)
     places = [(key, rows) for key, rows, _ in sheets.parts(cells)]
-    while kept.any():
-        faces = outer.copy()
-        faces[kept] = outer_faces(cells[kept], lattice)
-        uncovered = (faces != outer).any(axis=(1, 2))
-        if not uncovered.any():
-            _mend(cells, lattice, lower, upper, kept)
-            break
-        outer = faces
+    outer = outer_faces(cells, lattice)
+    uncovered = np.asarray(outer.any(axis=(1, 2)))
+    while uncovered.any():
+        before = np.count_nonzero(kept)
         for key, rows in places:
             wanted = np.zeros(len(cells), dtype=np.bool_)
             wanted[rows] = uncovered[rows]
@@ -189,18 +183,42 @@ def trim(
             tables = (occupied.resolution, occupied.bordered, occupied.origin, (domain.table, domain.origin, domain.inverse_resolution))
             bounds = (cells.lower, cells.upper), outer, wanted, depth, evidence, beams.outliers, tables, headings, (lower, upper), kept
             run(_trim, len(edges) - 1, (order, edges), *bounds, minimum=4)
+        if np.count_nonzero(kept) in (0, before):
+            break
+        faces = outer.copy()
+        faces[kept] = outer_faces(cells[kept], lattice)
+        uncovered = (faces != outer).any(axis=(1, 2))
+        outer = faces
     return Boxes(lower, upper), kept
 
 
-def _mend(cells: Boxes, lattice: Lattice, lower: FloatArray, upper: FloatArray, kept: npt.NDArray[np.bool_]) -> None:
-    """Give hypotheses that have fallen apart their cells back, as far as these lie in the hull of what was found in them."""
-    parts = cluster(Boxes(lower[kept], upper[kept]), circular=(2,))
-    if len(parts) == 1:
-        return
+def mend(cells: Boxes, lattice: Lattice, trimmed: Boxes, kept: npt.NDArray[np.bool_], parts: Clusters) -> npt.NDArray[np.bool_]:
+    """Give hypotheses that `trim` has torn apart their cells back, as far as these lie in the hull of what was found in them.
+
+    Parameters
+    ----------
+    cells, lattice
+        As they were given to `trim`.
+    trimmed, kept
+        What it has returned; the boxes of hypotheses that have fallen apart are replaced.
+    parts
+        The clusters of the kept boxes.
+
+    Returns
+    -------
+    kept
+        Which boxes are left then; the very same mask where nothing is torn.
+    """
+    if len(parts) < 2:
+        return kept
     whole = cluster(cells, circular=(2,))
     labels = whole.labels
+    torn = np.flatnonzero(np.bincount(np.unique(np.stack([labels[kept], parts.labels]), axis=1)[0]) > 1)
+    if not len(torn):
+        return kept
+    lower, upper, kept = trimmed.lower, trimmed.upper, kept.copy()
     turns = (lattice.layer(cells) - lattice.layer(whole.hulls)[labels]) % lattice.layers
-    for label in np.flatnonzero(np.bincount(np.unique(np.stack([labels[kept], parts.labels]), axis=1)[0]) > 1):
+    for label in torn:
         found = kept & (labels == label)
         low, high = lower[found].min(axis=0), upper[found].max(axis=0)
         first, last = turns[found].min(), turns[found].max()
@@ -210,3 +228,4 @@ def _mend(cells: Boxes, lattice: Lattice, lower: FloatArray, upper: FloatArray, 
         lowest[turns[rows] != first, 2], highest[turns[rows] != last, 2] = -np.inf, np.inf
         lower[rows], upper[rows] = np.maximum(cells.lower[rows], lowest), np.minimum(cells.upper[rows], highest)
         kept[rows] = (lower[rows] < upper[rows]).all(axis=1)
+    return kept

@@ -15,7 +15,7 @@ from ial.lidar.lattice import Lattice
 from ial.lidar.outer_faces import outer_faces
 from ial.lidar.scan_contractor import ScanContractor
 from ial.lidar.sheets import Sheets
-from ial.lidar.trimming import trim
+from ial.lidar.trimming import mend, trim
 from ial.maps.cell_index import CellIndex
 from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
 from ial.pose import Pose
@@ -69,8 +69,12 @@ class Case:
         return bad_beams(replace(self.beams, rays=self.beams.rays[:0], lengths=self.beams.lengths[:0]), poses, Obstacles(self.grid))
 
     def trimmed(self, outliers: int) -> Boxes:
-        cut, kept = trim(self.cells, self.lattice, self.sheets, self.world.beams(outliers), self.world.bounds.map_error_m, self.depth)
+        cut, kept = self.cut(self.cells, outliers)
         return cut[kept]
+
+    def cut(self, cells: Boxes, outliers: int) -> tuple[Boxes, np.ndarray]:
+        cut, kept = trim(cells, self.lattice, self.sheets, self.world.beams(outliers), self.world.bounds.map_error_m, self.depth)
+        return cut, mend(cells, self.lattice, cut, kept, cluster(cut[kept], circular=(2,)))
 
     def holds(self, boxes: Boxes, at: np.ndarray) -> bool:
         return any(boxes.contain([*at[:2], at[2] + turn]).any() for turn in (-2.0 * np.pi, 0.0, 2.0 * np.pi))
@@ -171,7 +175,7 @@ def test_outer_faces_are_moved_to_the_outermost_pieces_that_fit() -> None:
                 lower[number, axis] = pieces.lower[mine, axis].min()
             else:
                 upper[number, axis] = pieces.upper[mine, axis].max()
-        cut, kept = trim(case.cells, case.lattice, case.sheets, case.world.beams(outliers), case.world.bounds.map_error_m, case.depth)
+        cut, kept = case.cut(case.cells, outliers)
         rows = np.array(sorted(left), dtype=int)
         if len(rows) and len(cluster(Boxes(lower[rows], upper[rows]), circular=(2,))) > 1:
             torn += 1
@@ -199,8 +203,7 @@ def test_nothing_depends_on_threads_and_on_the_order_of_cells(threads: int) -> N
         order = np.random.default_rng(seed).permutation(len(case.cells))
         set_threads(threads)
         try:
-            evidence = (case.lattice, case.sheets, case.world.beams(case.bad), case.world.bounds.map_error_m, case.depth)
-            cut, kept = trim(case.cells[order], *evidence)
+            cut, kept = case.cut(case.cells[order], case.bad)
         finally:
             set_threads(None)
         expected = case.trimmed(case.bad)
