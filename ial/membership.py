@@ -32,6 +32,13 @@ class Model(Protocol[States, MotionIn, ReadingIn]):
         """Return what is left after a motion and the reading behind it."""
         return self.contract(self.predict(states, motion), reading)
 
+    def refine(self, states: States, reading: ReadingIn) -> States:
+        """Return a smaller set that holds every one of the states which a reading allows, too fine to go on with; the same set if none is.
+
+        None of them is left if it can be proved that the reading allows none: then it is rejected.
+        """
+        return states
+
     def empty(self, states: States) -> bool:
         """Return whether no state is left."""
         ...
@@ -69,6 +76,13 @@ class SetMembershipFilter(Generic[States, Motion, Reading]):
         What to go on with after a rejection.
     states
         What is known at the start; everything is possible by default.
+
+    Attributes
+    ----------
+    states
+        The set to go on with.
+    remaining
+        What the last reading has left of it, as far as `Model.refine` can tell.
     """
 
     def __init__(
@@ -80,15 +94,18 @@ class SetMembershipFilter(Generic[States, Motion, Reading]):
         self.model = model
         self.recovery = recovery
         self.states = model.universe() if states is None else states
+        self.remaining = self.states
         self._steps = 0
 
     def update(self, motion: Motion, reading: Reading) -> Rejection | None:
         """Take one step; return the rejection if no state of the set before it explains the reading."""
         before = self.states
         self.states = self.model.step(before, motion, reading)
+        self.remaining = self.model.refine(self.states, reading)
         rejection = None
-        if self.model.empty(self.states):
+        if self.model.empty(self.remaining):
             rejection = Rejection(self._steps)
             self.states = self.recovery(before, motion, reading)
+            self.remaining = self.model.refine(self.states, reading)
         self._steps += 1
         return rejection

@@ -52,6 +52,10 @@ class AtlasModel(Model[PoseSets, Motion | None, Beams]):
     def _contracted(self, states: PoseSets, reading: Beams) -> PoseSets:
         return PoseSets({name: model.contract(states.by_map[name], reading) for name, model in self.models.items()})
 
+    def refine(self, states: PoseSets, reading: Beams) -> PoseSets:
+        """Return what a scan has left in each map, as `LidarModel` refines it."""
+        return PoseSets({name: model.refine(states.by_map[name], reading) for name, model in self.models.items()})
+
     def empty(self, states: PoseSets) -> bool:
         """Return whether no pose is left in any map."""
         return not len(states)
@@ -63,6 +67,7 @@ class AtlasModel(Model[PoseSets, Motion | None, Beams]):
         found = PoseSets(dict.fromkeys(self.models, PoseSet(Boxes.none(3), outliers=reading.outliers)))
         if not searched:
             found = self.contract(self._universe, reading)
+            found = PoseSets({name: self.models[name].unrefuted(each, reading) for name, each in found.by_map.items()})
         if len(found) and self._recovery == "restart":
             return found
         united = {name: unite(each, predicted.by_map[name]) for name, each in found.by_map.items()}
@@ -168,12 +173,12 @@ class Atlas:
             model.start_clock()
         beams = scan_beams(scan, self.config)
         rejection = self._filter.update(motion, beams)
-        left = {name: self.model.models[name].trim(poses, beams) for name, poses in self.poses.items()}
-        states = {name: poses if len(poses) else self.poses[name] for name, poses in left.items()}
+        known = self._filter.remaining
         lost, counted = rejection is not None, beams.informative
-        hypotheses = {name: find_hypotheses(poses, self.grids[name], counted=counted, rejected=lost) for name, poses in states.items()}
+        hypotheses = {
+            name: find_hypotheses(poses, self.grids[name], counted=counted, rejected=lost) for name, poses in known.by_map.items()
+        }
         every = tuple(each for found in hypotheses.values() for each in found)
-        known = self._filter.states
         status = judge(every, self.config.localized_size, rejected=lost, found=not known.carried)
         place = next(name for name, each in hypotheses.items() if each) if status == "localized" else None
         return Whereabouts(
@@ -184,5 +189,5 @@ class Atlas:
             pose=None if place is None else hypotheses[place][0].centre,
             outliers_allowed=known.outliers if beams.informative else beams.outliers,
             elapsed_s=time.perf_counter() - begun,
-            vanishing=len(known) > 0 and is_vanishing(left.values(), beams, self.config.bounds.map_error_m),
+            vanishing=len(known) > 0 and is_vanishing(known.by_map.values(), beams, self.config.bounds.map_error_m),
         )

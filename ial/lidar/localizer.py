@@ -153,8 +153,7 @@ class Localizer:
         self.model.start_clock()
         beams = scan_beams(scan, self.config)
         rejection = tracker.update(motion, beams)
-        left = self.model.trim(tracker.states, beams)
-        poses = left if len(left) else tracker.states
+        poses = tracker.remaining
         hypotheses = find_hypotheses(poses, self.grid, counted=beams.informative, rejected=rejection is not None)
         status = judge(
             hypotheses,
@@ -175,6 +174,6 @@ class Localizer:
             radius_m=None if pose is None else radius(poses, pose, self.grid),
             uninformative=not beams.informative,
             limited=poses.limited,
-            vanishing=len(poses) > 0 and is_vanishing([left], beams, self.config.bounds.map_error_m),
+            vanishing=len(poses) > 0 and is_vanishing([poses], beams, self.config.bounds.map_error_m),
             elapsed_s=time.perf_counter() - begun,
         )

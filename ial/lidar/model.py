@@ -225,7 +225,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         rows = bad <= reading.outliers
         return cells[rows], bad[rows]
 
-    def trim(self, poses: PoseSet, reading: Beams) -> PoseSet:
+    def refine(self, poses: PoseSet, reading: Beams) -> PoseSet:
         """Return what a scan has left, its cells cut back to their outermost pieces that may hold a consistent pose; perhaps nothing.
 
         Only a set of few cells is worth it. Cells that are carried on are not cut: a set that reaches a little farther forgives more.
@@ -238,6 +238,10 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         left = replace(poses, boxes=cut)[kept]
         whole = mend(poses.boxes, self.lattice, cut, kept, left.clusters)
         return left if whole is kept else replace(poses, boxes=cut)[whole]
+
+    def unrefuted(self, poses: PoseSet, reading: Beams) -> PoseSet:
+        """Return what a scan has left; none of it where `refine` proves that no pose in it is consistent."""
+        return poses if len(self.refine(poses, reading)) else poses.none()
 
     def symmetries(self) -> tuple[Pose, ...]:
         """Return the rotations of the grid's frame after which no scan can tell the difference."""
@@ -261,7 +265,9 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         """
         predicted = self.predict(states, motion)
         searched = motion is None and states is self._universe  # the step itself has searched the whole map in vain
-        found = PoseSet(Boxes.none(3), outliers=reading.outliers) if searched else self.contract(self._universe, reading)
+        found = PoseSet(Boxes.none(3), outliers=reading.outliers)
+        if not searched:
+            found = self.unrefuted(self.contract(self._universe, reading), reading)
         if len(found) and self.config.recovery == "restart":
             return found
         return unite(found, predicted)

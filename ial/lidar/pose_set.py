@@ -60,6 +60,10 @@ class PoseSet:
         """The connected components of the boxes."""
         return cluster(self.boxes, circular=(2,))
 
+    def none(self) -> "PoseSet":
+        """Return the set without all of its boxes."""
+        return self[np.zeros(len(self), dtype=np.bool_)]
+
     def __getitem__(self, rows: npt.NDArray[np.bool_]) -> "PoseSet":
         """Return the set of the boxes that a mask chooses."""
         return replace(self, boxes=self.boxes[rows], carried=self.carried[rows], bad=self.bad[rows])

@@ -2,6 +2,8 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +26,9 @@ from ial.lidar.vanishing import is_vanishing, leeway
 from ial.maps.floor_plan import floor_plan
 from ial.maps.map_file import read_map
 from ial.pose import Pose
+from ial.study.good_beams import bad_beams
+from ial.study.obstacles import Obstacles
+from ial.study.used_beams import UsedBeams
 
 GRID = floor_plan(9.0, 7.0, 0.05, 3)
 LIDAR = Lidar(beams=72, angle_min=-math.pi, angle_increment=math.pi / 36.0)
@@ -67,6 +72,25 @@ def test_a_tracked_robot_that_has_left_its_bounds_is_flagged() -> None:
         flagged += estimate.vanishing
         localized += estimate.status == "localized"
     assert 0 < flagged < localized
+
+
+def test_what_is_refuted_piece_by_piece_is_rejected() -> None:
+    """Cells are left, but none of their pieces: so the scan fits nowhere in the start, as a twin finds, too."""
+    errors = SensorErrors(0.1, 0.02, 9, adversarial=True)  # more than the bounds allow
+    start, refuted = Boxes.around([(AT.x, AT.y, AT.theta)], [0.2, 0.2, 0.1]), 0
+    poses = np.random.default_rng(0).uniform(start.lower[0], start.upper[0], (300, 3))
+    for seed, outliers in product(range(6), range(15, 22)):
+        scan = next(simulate(GRID, [AT], LIDAR, errors, CONFIG.bounds.motion, seed).recording.readings()).scan
+        config = replace(CONFIG, outliers=outliers, precision=Precision(0.05, 0.025, 3))
+        localizer, beams = Localizer(GRID, config=config, initial=start), scan_beams(scan, config)
+        cells = localizer.model.contract(localizer.poses, beams)
+        if len(cells) and not len(localizer.model.refine(cells, beams)):
+            refuted += 1
+            assert (bad_beams(UsedBeams.of(scan, config), poses, Obstacles(GRID)) > outliers).all()
+            assert localizer.update(None, scan).status in ("lost", "blind")
+            restarted = Localizer(GRID, config=replace(config, recovery="restart"), initial=start).update(None, scan)
+            assert restarted.status == "blind" or not restarted.poses.carried.any()
+    assert refuted > 5
 
 
 def drives(aside_m: float) -> Iterator[tuple[bool, Estimate, bool]]:
