@@ -12,9 +12,9 @@ from report import Report, options
 from ial.datasets.opening import open_recording
 from ial.datasets.recording import steps
 from ial.datasets.trajectory import read_tum
-from ial.lidar.config import FreeSpace, LocalizerConfig, Outliers
+from ial.lidar.configuration.config import FreeSpace, LocalizerConfig, Outliers
 from ial.lidar.localizer import Localizer
-from ial.maps.map_file import read_map
+from ial.maps.grids.map_file import read_map
 from ial.study.containment import Containment
 
 ABOUT = """\

@@ -18,12 +18,12 @@ from ial.datasets.motion import ErrorBound, MotionBounds
 from ial.datasets.odometry import Odometry
 from ial.datasets.simulator import Lidar, SensorErrors, Simulation, simulate
 from ial.datasets.walk import random_walk
-from ial.lidar.config import LocalizerConfig
+from ial.lidar.configuration.config import LocalizerConfig
+from ial.lidar.configuration.share import number_of
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
-from ial.lidar.share import number_of
-from ial.maps.floor_plan import floor_plan
-from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.maps.grids.floor_plan import floor_plan
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 
 ABOUT = """\

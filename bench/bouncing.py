@@ -11,18 +11,18 @@ import numpy as np
 from report import Report, options
 from timing import timed
 
-from ial.bouncing.automaton import Automaton
-from ial.bouncing.cell_map import CellMap
-from ial.bouncing.determinization import determinize
-from ial.bouncing.graph import LabelledGraph
-from ial.bouncing.groups import periodic_groups
-from ial.bouncing.headings import Headings
-from ial.bouncing.minimal import minimize
-from ial.bouncing.model import BouncingModel
-from ial.bouncing.nondeterministic import NondeterministicAutomaton
-from ial.bouncing.table import FilterTable
+from ial.bouncing.automata.automaton import Automaton
+from ial.bouncing.automata.determinization import determinize
+from ial.bouncing.automata.minimal import minimize
+from ial.bouncing.automata.nondeterministic import NondeterministicAutomaton
+from ial.bouncing.automata.table import FilterTable
+from ial.bouncing.cells.cell_map import CellMap
+from ial.bouncing.cells.graph import LabelledGraph
+from ial.bouncing.cells.groups import periodic_groups
+from ial.bouncing.cells.headings import Headings
+from ial.bouncing.cells.model import BouncingModel
 from ial.contractors import threads
-from ial.maps.raster import Raster
+from ial.maps.polygons.raster import Raster
 
 ABOUT = """\
 The environment of figure 6 of the paper, 200 × 125 cells with a static obstacle at the wall and three placed at random inside, bouncing

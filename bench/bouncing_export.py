@@ -13,15 +13,15 @@ import numpy as np
 from report import Report, options
 from timing import timed
 
-from ial.bouncing.bounce_filter import BounceFilter
-from ial.bouncing.building import build_filter
+from ial.bouncing.automata.table import FilterTable
+from ial.bouncing.cells.headings import Headings
 from ial.bouncing.exports.c_source import c_header
 from ial.bouncing.exports.c_tables import CTables
 from ial.bouncing.exports.exported_filter import ExportedFilter
-from ial.bouncing.headings import Headings
-from ial.bouncing.table import FilterTable
-from ial.maps.environment import Environment
-from ial.maps.outline import outlines
+from ial.bouncing.filters.bounce_filter import BounceFilter
+from ial.bouncing.filters.building import build_filter
+from ial.maps.polygons.environment import Environment
+from ial.maps.polygons.outline import outlines
 
 ABOUT = """\
 A room of 19 cells with 8 headings, 152 configurations, as the environments of the paper's tables; it is one of those in `bouncing.py`.

@@ -8,18 +8,18 @@ import numpy as np
 from report import Report, options
 from timing import timed
 
-from ial.bouncing.cell_map import CellMap
-from ial.bouncing.determinization import determinize
-from ial.bouncing.headings import Headings
+from ial.bouncing.automata.determinization import determinize
+from ial.bouncing.automata.set_automaton import determinize_sets
+from ial.bouncing.cells.cell_map import CellMap
+from ial.bouncing.cells.headings import Headings
+from ial.bouncing.cells.noisy_map import NoisyMap
+from ial.bouncing.cells.noisy_model import NoisyModel
 from ial.bouncing.motion_bounds import MotionBounds
-from ial.bouncing.noisy_map import NoisyMap
-from ial.bouncing.noisy_model import NoisyModel
-from ial.bouncing.real_robot import RealRobot
-from ial.bouncing.set_automaton import determinize_sets
+from ial.bouncing.rays.real_robot import RealRobot
 from ial.errors import FilterError
-from ial.maps.environment import Environment
-from ial.maps.polygon import Polygon
-from ial.maps.raster import rasterize
+from ial.maps.polygons.environment import Environment
+from ial.maps.polygons.polygon import Polygon
+from ial.maps.polygons.raster import rasterize
 
 ABOUT = """\
 An L of 9 m × 7 m with a pillar, cells of 1/4 m, 36 headings, bouncing angle 100°, steps of 1 m. *Known*: the share of all vertices in

@@ -13,14 +13,14 @@ from matplotlib.figure import Figure
 from report import Report, options
 from timing import timed
 
-from ial.bouncing.cell_map import CellMap
-from ial.bouncing.corner import Corner
-from ial.bouncing.determinization import determinize
-from ial.bouncing.graph import LabelledGraph
-from ial.bouncing.groups import periodic_groups
-from ial.bouncing.headings import Headings
-from ial.bouncing.table import FilterTable
-from ial.maps.raster import Raster
+from ial.bouncing.automata.determinization import determinize
+from ial.bouncing.automata.table import FilterTable
+from ial.bouncing.cells.cell_map import CellMap
+from ial.bouncing.cells.corner import Corner
+from ial.bouncing.cells.graph import LabelledGraph
+from ial.bouncing.cells.groups import periodic_groups
+from ial.bouncing.cells.headings import Headings
+from ial.maps.polygons.raster import Raster
 
 ABOUT = """\
 The experiments of Alam, Bobadilla and Shell 2017. **The paper's maps are not available**: its figures are missing from the text at hand,

@@ -3,7 +3,7 @@
 import numpy as np
 import numpy.typing as npt
 
-from ial.maps.raster import Raster
+from ial.maps.polygons.raster import Raster
 
 MaskArray = npt.NDArray[np.bool_]
 

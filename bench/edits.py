@@ -26,8 +26,8 @@ ROOT = Path(__file__).resolve().parent.parent
 _LONGEST_S = 900
 _COMPILED = ("ial.contractors.kernels import", "import numba", "from numba", "llvmlite")  # what files with machine code in them import
 _PROBE = """
-import ial, ial.contractors.rounding, ial.datasets.motion, ial.maps.cell_index, pathlib
-for module in (ial, ial.contractors.rounding, ial.datasets.motion, ial.maps.cell_index):
+import ial, ial.contractors.rounding, ial.datasets.motion, ial.maps.grids.cell_index, pathlib
+for module in (ial, ial.contractors.rounding, ial.datasets.motion, ial.maps.grids.cell_index):
     assert pathlib.Path(module.__file__).resolve().is_relative_to(pathlib.Path.cwd().resolve()), module.__file__
 """
 

@@ -13,10 +13,10 @@ from report import Report, options
 from ial.datasets.in_memory import InMemoryRecording
 from ial.datasets.opening import open_recording
 from ial.datasets.trajectory import read_tum
-from ial.lidar.config import Bounds, LocalizerConfig, Outliers, Precision
+from ial.lidar.configuration.config import Bounds, LocalizerConfig, Outliers, Precision
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
-from ial.maps.map_file import read_map
+from ial.maps.grids.map_file import read_map
 from ial.study.containment import Containment
 
 ABOUT = """\

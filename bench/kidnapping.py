@@ -12,7 +12,7 @@ from sources import NAMES, Source
 
 from ial.datasets.kidnapping import Kidnapping, kidnap
 from ial.datasets.scan import LaserScan
-from ial.lidar.config import LocalizerConfig
+from ial.lidar.configuration.config import LocalizerConfig
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
 from ial.pose import Pose

@@ -7,11 +7,11 @@ from ial.contractors.boxes import Boxes
 from ial.contractors.groups import group_rows
 from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
-from ial.lidar.corners import OFFSET, corners
-from ial.lidar.end_points import relative_bounds
+from ial.lidar.evidence.end_points import relative_bounds
 from ial.lidar.margins import NEAR
-from ial.lidar.scan_contractor import ScanContractor
-from ial.maps.cell_index import BORDER
+from ial.lidar.search.rectangle_indices import OFFSET, corners
+from ial.lidar.search.scan_contractor import ScanContractor
+from ial.maps.grids.cell_index import BORDER
 
 
 @kernel

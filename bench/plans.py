@@ -8,9 +8,9 @@ from ial.datasets.motion import MotionBounds
 from ial.datasets.scan import LaserScan
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.datasets.walk import random_walk
-from ial.lidar.config import Bounds, LocalizerConfig
-from ial.maps.floor_plan import floor_plan
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.lidar.configuration.config import Bounds, LocalizerConfig
+from ial.maps.grids.floor_plan import floor_plan
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
 
 BEAMS = 180

@@ -21,8 +21,8 @@ from ial.datasets.trajectory import Trajectory, read_tum
 from ial.lidar.estimate import Estimate
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
-from ial.maps.map_file import read_map
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.maps.grids.map_file import read_map
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.study.containment import Containment
 from ial.study.reference import TruthFrame
 

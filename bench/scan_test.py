@@ -19,11 +19,11 @@ from ial.datasets.opening import open_recording
 from ial.datasets.recording import steps
 from ial.datasets.scan import LaserScan
 from ial.lidar import pose_contractor
-from ial.lidar.config import LocalizerConfig
+from ial.lidar.configuration.config import LocalizerConfig
 from ial.lidar.localizer import Localizer
-from ial.lidar.scan_contractor import ScanContractor
-from ial.maps.map_file import read_map
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.lidar.search.scan_contractor import ScanContractor
+from ial.maps.grids.map_file import read_map
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 
 ABOUT = """\
 Static localization of one scan on the whole map, one thread and all. Each batch of boxes that the paver hands to the scan contractor is

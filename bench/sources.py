@@ -12,8 +12,8 @@ from ial.datasets.opening import open_recording
 from ial.datasets.recording import Reading
 from ial.datasets.scan import LaserScan, Mounting
 from ial.datasets.trajectory import Trajectory, read_tum
-from ial.maps.map_file import read_map
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.maps.grids.map_file import read_map
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
 from ial.study.reference import TruthFrame
 

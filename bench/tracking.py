@@ -15,7 +15,7 @@ from ial.contractors.threads import set_threads
 from ial.datasets.opening import open_recording
 from ial.datasets.recording import steps
 from ial.lidar.localizer import Localizer
-from ial.maps.map_file import read_map
+from ial.maps.grids.map_file import read_map
 from ial.particles.likelihood_field import BeamModel
 from ial.particles.monte_carlo import MonteCarlo, MonteCarloConfig
 from ial.particles.odometry_model import OdometryModel

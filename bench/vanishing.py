@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from recordings import RUNS, Run, carmen
 from report import Report, options
 
-from ial.lidar.beams import scan_beams
+from ial.lidar.evidence.beams import scan_beams
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
 from ial.lidar.vanishing import leeway

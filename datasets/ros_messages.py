@@ -8,8 +8,8 @@ import numpy as np
 
 from ial.datasets.odometry import Odometry
 from ial.datasets.scan import LaserScan, Mounting
-from ial.maps.grid_message import grid_to_message_fields
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.maps.grids.grid_message import grid_to_message_fields
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
 
 if TYPE_CHECKING:

@@ -21,8 +21,8 @@ from ial.datasets.recording import Reading
 from ial.datasets.scan import LaserScan, Mounting
 from ial.datasets.trajectory import Trajectory
 from ial.errors import ConfigError
-from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
-from ial.maps.ray_casting import cast_rays
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.maps.grids.ray_casting import cast_rays
 from ial.pose import Pose
 
 _DEPTHS_M = (1e-7, 1e-5, 1e-3)  # how far behind the edge of a cell a beam ends, so that rounding cannot take it out again

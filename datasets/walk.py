@@ -6,7 +6,7 @@ import numpy as np
 from scipy import ndimage
 
 from ial.errors import MapError
-from ial.maps.occupancy_grid import FREE, MaskArray, OccupancyGrid
+from ial.maps.grids.occupancy_grid import FREE, MaskArray, OccupancyGrid
 from ial.pose import Pose, wrap
 
 _TRIES = 100

@@ -1,77 +1,72 @@
-"""Maps: occupancy grids, their files and messages, contractors to their cells, ray casting, and polygons with holes."""
+"""Maps: occupancy grids, their files and messages, contractors to their cells, ray casting, and polygons with holes.
 
-import importlib
-from typing import TYPE_CHECKING, Any
+Names are loaded when they are first used.
+"""
+
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ial.maps.cell_contractor import CellContractor
-    from ial.maps.cell_index import CellIndex
-    from ial.maps.environment import Environment, load_environment
-    from ial.maps.erosion import erode
-    from ial.maps.grid_message import grid_from_message, grid_to_message_fields, read_map_topic
-    from ial.maps.loading import load_map
-    from ial.maps.map_file import read_map, write_map
-    from ial.maps.map_warning import MapWarning
-    from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid, check_usable
-    from ial.maps.outline import outlines
-    from ial.maps.polygon import Polygon
-    from ial.maps.raster import Raster, rasterize
-    from ial.maps.ray_casting import cast_rays
-    from ial.maps.symmetry import symmetries
+    from ial.maps.grids.cell_contractor import CellContractor as CellContractor
+    from ial.maps.grids.cell_index import CellIndex as CellIndex
+    from ial.maps.grids.grid_message import grid_from_message as grid_from_message
+    from ial.maps.grids.grid_message import grid_to_message_fields as grid_to_message_fields
+    from ial.maps.grids.grid_message import read_map_topic as read_map_topic
+    from ial.maps.grids.loading import load_map as load_map
+    from ial.maps.grids.map_file import read_map as read_map
+    from ial.maps.grids.map_file import write_map as write_map
+    from ial.maps.grids.map_warning import MapWarning as MapWarning
+    from ial.maps.grids.occupancy_grid import FREE as FREE
+    from ial.maps.grids.occupancy_grid import OCCUPIED as OCCUPIED
+    from ial.maps.grids.occupancy_grid import UNKNOWN as UNKNOWN
+    from ial.maps.grids.occupancy_grid import OccupancyGrid as OccupancyGrid
+    from ial.maps.grids.occupancy_grid import check_usable as check_usable
+    from ial.maps.grids.ray_casting import cast_rays as cast_rays
+    from ial.maps.grids.symmetry import symmetries as symmetries
+    from ial.maps.polygons.environment import Environment as Environment
+    from ial.maps.polygons.environment import load_environment as load_environment
+    from ial.maps.polygons.erosion import erode as erode
+    from ial.maps.polygons.outline import outlines as outlines
+    from ial.maps.polygons.polygon import Polygon as Polygon
+    from ial.maps.polygons.raster import Raster as Raster
+    from ial.maps.polygons.raster import rasterize as rasterize
+else:
+    from ial.lazy import lazy as _lazy
 
-__all__ = [
-    "FREE",
-    "OCCUPIED",
-    "UNKNOWN",
-    "CellContractor",
-    "CellIndex",
-    "Environment",
-    "MapWarning",
-    "OccupancyGrid",
-    "Polygon",
-    "Raster",
-    "cast_rays",
-    "check_usable",
-    "erode",
-    "grid_from_message",
-    "grid_to_message_fields",
-    "load_environment",
-    "load_map",
-    "outlines",
-    "rasterize",
-    "read_map",
-    "read_map_topic",
-    "symmetries",
-    "write_map",
-]
-
-_FILES = {
-    "cell_contractor": ("CellContractor",),
-    "cell_index": ("CellIndex",),
-    "environment": ("Environment", "load_environment"),
-    "erosion": ("erode",),
-    "grid_message": ("grid_from_message", "grid_to_message_fields", "read_map_topic"),
-    "loading": ("load_map",),
-    "map_file": ("read_map", "write_map"),
-    "map_warning": ("MapWarning",),
-    "occupancy_grid": ("FREE", "OCCUPIED", "UNKNOWN", "OccupancyGrid", "check_usable"),
-    "outline": ("outlines",),
-    "polygon": ("Polygon",),
-    "raster": ("Raster", "rasterize"),
-    "ray_casting": ("cast_rays",),
-    "symmetry": ("symmetries",),
-}
-
-
-def __getattr__(name: str) -> Any:
-    """Import the file of a public name when the name is first used: `import ial.maps` itself costs nothing."""
-    for file, names in _FILES.items():
-        if name in names:
-            value = getattr(importlib.import_module(f"{__name__}.{file}"), name)
-            globals()[name] = value
-            return value
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-
-
-def __dir__() -> list[str]:
-    return __all__
+    __getattr__, __dir__, __all__ = _lazy(
+        __name__,
+        {
+            "grids.cell_contractor": ("CellContractor",),
+            "grids.cell_index": ("CellIndex",),
+            "grids.grid_message": (
+                "grid_from_message",
+                "grid_to_message_fields",
+                "read_map_topic",
+            ),
+            "grids.loading": ("load_map",),
+            "grids.map_file": (
+                "read_map",
+                "write_map",
+            ),
+            "grids.map_warning": ("MapWarning",),
+            "grids.occupancy_grid": (
+                "FREE",
+                "OCCUPIED",
+                "UNKNOWN",
+                "OccupancyGrid",
+                "check_usable",
+            ),
+            "grids.ray_casting": ("cast_rays",),
+            "grids.symmetry": ("symmetries",),
+            "polygons.environment": (
+                "Environment",
+                "load_environment",
+            ),
+            "polygons.erosion": ("erode",),
+            "polygons.outline": ("outlines",),
+            "polygons.polygon": ("Polygon",),
+            "polygons.raster": (
+                "Raster",
+                "rasterize",
+            ),
+        },
+    )

@@ -33,8 +33,9 @@ NUMBERED = {  # files that hold numbers as small as a margin, and are none that 
     "contractors/solving/zeros.py": "the width of a first guess, which is then proved or not",
     "datasets/simulator.py": "how far simulated errors keep off their bounds",
     "datasets/survey.py": "seconds in a nanosecond",
-    "maps/occupancy_grid.py": "the smallest width of a cell that is believed",
-    "maps/ray_casting.py": "what a simulated ray is said to touch",
+    "ial/lidar/latencies.py": "the shortest time that is counted, and how finely",
+    "maps/grids/occupancy_grid.py": "the smallest width of a cell that is believed",
+    "maps/grids/ray_casting.py": "what a simulated ray is said to touch",
 }
 VAGUE = {"utils", "util", "helpers", "helper", "common", "core", "misc"}
 

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from ial.datasets.opening import open_recording
 from ial.datasets.recording import Recording
-from ial.maps.map_file import read_map
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.maps.grids.map_file import read_map
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 
 _FOLDER = Path(str(files(__name__)))
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from pathlib import Path
 
-from ial.bouncing.real_robot import RealPose
+from ial.bouncing.rays.real_robot import RealPose
 from ial.whole_file import whole_files
 
 _PER_LINE = 80

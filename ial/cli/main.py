@@ -6,27 +6,12 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
-from ial.cli import (
-    bounce_build,
-    bounce_export,
-    bounce_run,
-    bounce_search_angle,
-    bounce_show,
-    bounce_simulate,
-    bounds,
-    convert,
-    info,
-    kidnap,
-    localize,
-    map_info,
-    replay,
-    simulate,
-    stream,
-    warm,
-    where,
-)
-from ial.cli.outcome import exit_status
-from ial.cli.terminal import say
+from ial.cli.bounce import build, export, run, search_angle, show
+from ial.cli.bounce import simulate as bounce_simulate
+from ial.cli.lidar import bounds, localize, replay, stream, warm, where
+from ial.cli.recordings import convert, info, kidnap, map_info, simulate
+from ial.cli.shell.outcome import exit_status
+from ial.cli.shell.terminal import say
 
 
 class Commands(TyperGroup):
@@ -59,11 +44,11 @@ app.command("replay")(replay.replay)
 app.command("warm")(warm.warm)
 maps.command("info")(map_info.map_info)
 app.add_typer(maps, name="map")
-bounce.command("build")(bounce_build.build)
-bounce.command("run")(bounce_run.run)
-bounce.command("export")(bounce_export.export)
-bounce.command("search-angle")(bounce_search_angle.search_angle)
-bounce.command("show")(bounce_show.show)
+bounce.command("build")(build.build)
+bounce.command("run")(run.run)
+bounce.command("export")(export.export)
+bounce.command("search-angle")(search_angle.search_angle)
+bounce.command("show")(show.show)
 bounce.command("simulate")(bounce_simulate.simulate)
 app.add_typer(bounce, name="bounce")
 

@@ -8,18 +8,19 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ial.lidar.atlas import Atlas as Atlas
     from ial.lidar.atlas import Whereabouts as Whereabouts
-    from ial.lidar.config import Bounds as Bounds
-    from ial.lidar.config import FreeSpace as FreeSpace
-    from ial.lidar.config import LocalizedSize as LocalizedSize
-    from ial.lidar.config import LocalizerConfig as LocalizerConfig
-    from ial.lidar.config import Precision as Precision
+    from ial.lidar.configuration.config import Bounds as Bounds
+    from ial.lidar.configuration.config import FreeSpace as FreeSpace
+    from ial.lidar.configuration.config import LocalizedSize as LocalizedSize
+    from ial.lidar.configuration.config import LocalizerConfig as LocalizerConfig
+    from ial.lidar.configuration.config import Precision as Precision
+    from ial.lidar.configuration.config_record import config_record as config_record
     from ial.lidar.estimate import Estimate as Estimate
     from ial.lidar.estimate import Hypothesis as Hypothesis
     from ial.lidar.global_check import GlobalCheck as GlobalCheck
     from ial.lidar.localizer import Localizer as Localizer
     from ial.lidar.pose_set import PoseSet as PoseSet
     from ial.lidar.run import localize as localize
-    from ial.lidar.scan_contractor import ScanContractor as ScanContractor
+    from ial.lidar.search.scan_contractor import ScanContractor as ScanContractor
 else:
     from ial.lazy import lazy as _lazy
 
@@ -27,12 +28,13 @@ else:
         __name__,
         {
             "atlas": ("Atlas", "Whereabouts"),
-            "config": ("Bounds", "FreeSpace", "LocalizedSize", "LocalizerConfig", "Precision"),
+            "configuration.config": ("Bounds", "FreeSpace", "LocalizedSize", "LocalizerConfig", "Precision"),
+            "configuration.config_record": ("config_record",),
             "estimate": ("Estimate", "Hypothesis"),
             "global_check": ("GlobalCheck",),
             "localizer": ("Localizer",),
             "pose_set": ("PoseSet",),
             "run": ("localize",),
-            "scan_contractor": ("ScanContractor",),
+            "search.scan_contractor": ("ScanContractor",),
         },
     )

@@ -8,15 +8,15 @@ from ial.contractors.boxes import Boxes
 from ial.datasets.motion import Motion
 from ial.datasets.scan import LaserScan
 from ial.errors import ConfigError
-from ial.lidar.allowance import allowing
-from ial.lidar.beams import Beams, scan_beams
-from ial.lidar.config import LocalizerConfig
+from ial.lidar.configuration.config import LocalizerConfig
 from ial.lidar.estimate import Hypothesis, Status, find_hypotheses, judge
+from ial.lidar.evidence.beams import Beams, scan_beams
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet, unite
 from ial.lidar.pose_sets import PoseSets
+from ial.lidar.search.outlier_budget import allowing
 from ial.lidar.vanishing import is_vanishing
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.membership import Model, SetMembershipFilter
 from ial.pose import Pose
 
@@ -137,7 +137,7 @@ class Atlas:
     >>> from ial.datasets.recording import steps
     >>> from ial.datasets.sample import sample_grid, sample_recording
     >>> from ial.lidar import Atlas
-    >>> from ial.maps.floor_plan import floor_plan
+    >>> from ial.maps.grids.floor_plan import floor_plan
     >>> atlas = Atlas({"faculty": sample_grid(), "elsewhere": floor_plan(20.0, 15.0, 0.05, 1)})
     >>> for step in steps(sample_recording(), atlas.config.bounds.motion):
     ...     whereabouts = atlas.update(step.motion, step.scan)

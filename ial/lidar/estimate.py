@@ -9,9 +9,9 @@ import numpy as np
 from ial.contractors.boxes import Boxes
 from ial.contractors.margins import ABOVE
 from ial.contractors.paving.limits import Limit
-from ial.lidar.config import LocalizedSize
+from ial.lidar.configuration.config import LocalizedSize
 from ial.lidar.pose_set import PoseSet
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.pose import Pose, wrap
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ import numpy.typing as npt
 from ial.contractors.boxes import Boxes
 from ial.contractors.margins import ROUNDINGS
 from ial.contractors.paving.clusters import cluster
-from ial.maps.rigid_transform import boxes_from_frame
+from ial.maps.grids.rigid_transform import boxes_from_frame
 from ial.pose import Pose
 
 

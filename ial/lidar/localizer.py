@@ -6,15 +6,15 @@ import time
 from ial.contractors.boxes import Boxes
 from ial.datasets.motion import Motion
 from ial.datasets.scan import LaserScan
-from ial.lidar.beams import Beams, scan_beams
-from ial.lidar.config import Bounds, LocalizerConfig, Outliers
+from ial.lidar.configuration.config import Bounds, LocalizerConfig, Outliers
 from ial.lidar.estimate import Estimate, find_hypotheses, judge, radius
+from ial.lidar.evidence.beams import Beams, scan_beams
 from ial.lidar.global_check import GlobalCheck, check_everywhere
 from ial.lidar.images import are_images
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet
 from ial.lidar.vanishing import is_vanishing
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.membership import SetMembershipFilter
 from ial.pose import Pose
 

@@ -6,7 +6,7 @@ rounded takes a part of its own size, as `ial.contractors.margins` has it.
 """
 
 from ial.contractors.margins import UNIT
-from ial.maps.occupancy_grid import LARGEST_RESOLUTION, LARGEST_SIDE
+from ial.maps.grids.occupancy_grid import LARGEST_RESOLUTION, LARGEST_SIDE
 
 MOST_CELLS = 2**22
 """Cells along a side of a whole map; `Sheets` refuses more."""

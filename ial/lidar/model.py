@@ -12,20 +12,20 @@ from ial.contractors.paving.paver import pave
 from ial.contractors.paving.waiting import Order
 from ial.datasets.motion import Motion
 from ial.errors import ConfigError
-from ial.lidar.allowance import allowing
-from ial.lidar.beams import Beams
-from ial.lidar.cell_counts import count_cells
-from ial.lidar.config import LocalizerConfig
-from ial.lidar.free_space import count_blocked
-from ial.lidar.lattice import Lattice, divide
-from ial.lidar.pose_contractor import PoseContractor
+from ial.lidar.configuration.config import LocalizerConfig
+from ial.lidar.evidence.beams import Beams
 from ial.lidar.pose_set import PoseSet, join, unite
-from ial.lidar.prediction import in_rows, move
-from ial.lidar.sheets import Sheet, Sheets
-from ial.lidar.tiles import Tiles
-from ial.lidar.trimming import mend, trim
-from ial.maps.occupancy_grid import FREE, UNKNOWN, OccupancyGrid, check_usable
-from ial.maps.symmetry import symmetries
+from ial.lidar.search.border_refinement import mend, trim
+from ial.lidar.search.cell_bitmaps import Tiles
+from ial.lidar.search.cell_counts import count_cells
+from ial.lidar.search.free_space import count_blocked
+from ial.lidar.search.lattice import Lattice, divide
+from ial.lidar.search.map_tables import Sheet, Sheets
+from ial.lidar.search.outlier_budget import allowing
+from ial.lidar.search.pose_contractor import PoseContractor
+from ial.lidar.search.prediction import in_rows, move
+from ial.maps.grids.occupancy_grid import FREE, UNKNOWN, OccupancyGrid, check_usable
+from ial.maps.grids.symmetry import symmetries
 from ial.membership import Model
 from ial.pose import Pose
 

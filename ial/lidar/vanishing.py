@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ial.lidar.beams import Beams
+from ial.lidar.evidence.beams import Beams
 from ial.lidar.pose_set import PoseSet
 
 

@@ -11,9 +11,9 @@ from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_buffer import OdometryBuffer
 from ial.datasets.recording import Reading, steps
 from ial.datasets.scan import LaserScan
-from ial.lidar.config import LocalizerConfig
+from ial.lidar.configuration.config import LocalizerConfig
 from ial.lidar.localizer import Localizer
-from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
+from ial.maps.grids.occupancy_grid import OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 
 _SIDE = 80  # cells

@@ -11,7 +11,7 @@ from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 from ial.datasets.scan import LaserScan
 from ial.errors import ConfigError, RecordingError
-from ial.maps.occupancy_grid import FREE, OccupancyGrid, check_usable
+from ial.maps.grids.occupancy_grid import FREE, OccupancyGrid, check_usable
 from ial.particles.likelihood_field import BeamModel, LikelihoodField, score, score_turned
 from ial.pose import Pose, wrap
 

@@ -10,9 +10,9 @@ import numpy.typing as npt
 from ial.contractors.kernels import kernel
 from ial.datasets.scan import LaserScan
 from ial.errors import ConfigError
-from ial.lidar.beams import select_beams
-from ial.lidar.config import Bounds
-from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
+from ial.lidar.configuration.config import Bounds
+from ial.lidar.evidence.beams import select_beams
+from ial.maps.grids.occupancy_grid import OCCUPIED, OccupancyGrid
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ import numpy as np
 
 from ial.contractors.boxes import FloatArray
 from ial.datasets.recording import Step
-from ial.lidar.config import LocalizerConfig
-from ial.maps.occupancy_grid import OccupancyGrid
-from ial.maps.ray_casting import cast_rays
+from ial.lidar.configuration.config import LocalizerConfig
+from ial.maps.grids.occupancy_grid import OccupancyGrid
+from ial.maps.grids.ray_casting import cast_rays
 from ial.pose import Pose, wrap
 from ial.study.blocked_rays import blocked_rays
 from ial.study.failures import Failures

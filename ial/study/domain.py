@@ -3,8 +3,8 @@
 import numpy as np
 import numpy.typing as npt
 
-from ial.lidar.config import LocalizerConfig
-from ial.maps.occupancy_grid import FREE, UNKNOWN, OccupancyGrid
+from ial.lidar.configuration.config import LocalizerConfig
+from ial.maps.grids.occupancy_grid import FREE, UNKNOWN, OccupancyGrid
 from ial.study.obstacles import BoolArray, FloatArray, Obstacles, slack_m
 
 _IN_A_CELL = np.stack(np.meshgrid([0.0, 0.5, 1.0], [0.0, 0.5, 1.0]), axis=-1).reshape(-1, 2)

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from ial.contractors.boxes import FloatArray
 from ial.errors import OutputError
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 
 _CELL_M = 0.2  # finer than a piece of furniture, coarse enough to hold several beams
 

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from scipy import ndimage
 from scipy.spatial import cKDTree
 
-from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
+from ial.maps.grids.occupancy_grid import OCCUPIED, OccupancyGrid
 
 SLACK_M = 1e-9
 """So much is kept off every bound, and 2⁻⁴⁰ of the largest number: thousands of times what doubles round."""

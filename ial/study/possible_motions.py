@@ -1,4 +1,4 @@
-"""How the base may have moved until each beam of a scan: the slow, obvious twin of `ial.lidar.sweep`, which shares no code with it."""
+"""How the base may have moved until each beam of a scan: a slow, obvious twin of `ial.lidar.evidence.sweep`, without any of its code."""
 
 import itertools
 import math

@@ -5,10 +5,10 @@ from typing import Literal
 
 from ial.datasets.recording import Recording, Step, steps
 from ial.datasets.trajectory import Trajectory
-from ial.lidar.config import LocalizerConfig
+from ial.lidar.configuration.config import LocalizerConfig
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
 
 TruthFrame = Literal["base", "laser"]

@@ -4,8 +4,8 @@ import time
 from dataclasses import dataclass
 
 from ial.datasets.recording import Recording, steps
+from ial.lidar.latencies import Latencies
 from ial.lidar.localizer import Localizer
-from ial.results.latencies import Latencies
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.datasets.scan import LaserScan
-from ial.lidar.config import Bounds, LocalizerConfig
+from ial.lidar.configuration.config import Bounds, LocalizerConfig
 from ial.study.possible_motions import possible_motions
 
 _MOST_TURNS = 100  # to each side; an endless beam is not worth more

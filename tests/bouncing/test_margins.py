@@ -6,13 +6,13 @@ import mpmath
 import numpy as np
 import pytest
 
-from ial.bouncing import ray_grid
-from ial.bouncing.ray_model import RayModel
-from ial.bouncing.ray_set import RaySet
-from ial.bouncing.walls import Walls
+from ial.bouncing.rays import ray_grid
+from ial.bouncing.rays.ray_model import RayModel
+from ial.bouncing.rays.ray_set import RaySet
 from ial.errors import MapError
-from ial.maps.environment import Environment
-from ial.maps.polygon import Polygon
+from ial.maps.polygons.environment import Environment
+from ial.maps.polygons.polygon import Polygon
+from ial.maps.polygons.walls import Walls
 
 OFFSETS = [Fraction(0), Fraction(10**6) + Fraction(1, 3), Fraction(-(10**9))]
 

@@ -3,7 +3,7 @@ from pathlib import Path
 
 import pytest
 
-from ial.bouncing.real_robot import RealPose
+from ial.bouncing.rays.real_robot import RealPose
 from ial.bouncing.stream import parse_stream
 from ial.bouncing.stream_file import write_stream, write_truth
 from ial.errors import OutputError

@@ -8,15 +8,15 @@ from fractions import Fraction
 import numpy as np
 
 from ial.bouncing.motion_bounds import MotionBounds
-from ial.bouncing.ray_grid import least_pieces
-from ial.bouncing.ray_model import RayModel
-from ial.bouncing.ray_set import RaySet
-from ial.bouncing.real_robot import RealRobot
-from ial.bouncing.walls import Walls
+from ial.bouncing.rays.ray_grid import least_pieces
+from ial.bouncing.rays.ray_model import RayModel
+from ial.bouncing.rays.ray_set import RaySet
+from ial.bouncing.rays.real_robot import RealRobot
 from ial.errors import MapError
-from ial.maps.environment import Environment
-from ial.maps.outline import outlines
-from ial.maps.polygon import ExactRing, Polygon
+from ial.maps.polygons.environment import Environment
+from ial.maps.polygons.outline import outlines
+from ial.maps.polygons.polygon import ExactRing, Polygon
+from ial.maps.polygons.walls import Walls
 
 _PI_DIGITS = 31415926535897932384626433832795028841971
 _PI = Fraction(_PI_DIGITS, 10**40), Fraction(_PI_DIGITS + 1, 10**40)

@@ -8,11 +8,11 @@ from fractions import Fraction
 import numpy as np
 import numpy.typing as npt
 
-from ial.bouncing.cell_map import CellMap
-from ial.bouncing.corner import Corner
-from ial.bouncing.graph import LabelledGraph
-from ial.bouncing.headings import Headings
-from ial.maps.raster import Raster
+from ial.bouncing.cells.cell_map import CellMap
+from ial.bouncing.cells.corner import Corner
+from ial.bouncing.cells.graph import LabelledGraph
+from ial.bouncing.cells.headings import Headings
+from ial.maps.polygons.raster import Raster
 
 MaskArray = npt.NDArray[np.bool_]
 

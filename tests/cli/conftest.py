@@ -11,8 +11,8 @@ from typer.testing import CliRunner
 from ial.cli.main import app
 from ial.datasets.bag_writer import BagWriter
 from ial.datasets.sample import sample_map_path, sample_recording_path
-from ial.maps.map_file import write_map
-from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
+from ial.maps.grids.map_file import write_map
+from ial.maps.grids.occupancy_grid import OCCUPIED, OccupancyGrid
 
 SECOND = 10**9
 SCAN = "sensor_msgs/msg/LaserScan"

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
-from ial.bouncing.filter_file import read_filter
+from ial.bouncing.filters.filter_file import read_filter
 from ial.cli.main import app
-from ial.maps.map_file import write_map
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.maps.grids.map_file import write_map
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 
 Cli = Callable[..., Any]
 WKT = "POLYGON ((0 0, 9 0, 9 4, 5 4, 5 7, 0 7, 0 0), (2 2, 2 4, 3 4, 3 2, 2 2))"

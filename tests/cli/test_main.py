@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from ial.cli.outcome import exit_status
+from ial.cli.shell.outcome import exit_status
 
 HEAVY = ("cv2", "matplotlib", "numba", "numpy", "rosbags", "scipy", "yaml")
 
@@ -70,7 +70,7 @@ def test_wrong_usage_is_status_2(ial: Callable[..., Any], arguments: list[str]) 
 
 
 def test_an_interruption_is_status_130_and_leaves_nothing(ial: Callable[..., Any], monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    from ial.results.enclosures import EnclosuresFile
+    from ial.results.lidar.enclosures import EnclosuresFile
 
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt

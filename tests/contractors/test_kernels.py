@@ -38,7 +38,7 @@ def test_a_change_of_a_constant_in_a_file_without_kernels_is_noticed(copy: Packa
 CORNER = """
 import numpy as np
 from ial.contractors.kernels import kernel
-from ial.lidar.corners import OFFSET, corners
+from ial.lidar.search.rectangle_indices import OFFSET, corners
 
 
 @kernel

@@ -25,9 +25,9 @@ from ial.datasets.recording import Reading, Recording, Step, steps
 from ial.datasets.scan import LaserScan
 from ial.datasets.scan_stream import ScanStream
 from ial.errors import OutputError
-from ial.lidar.config import Bounds, LocalizerConfig
+from ial.lidar.configuration.config import Bounds, LocalizerConfig
 from ial.lidar.localizer import Localizer
-from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
+from ial.maps.grids.occupancy_grid import OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 
 BOUNDS = MotionBounds(ErrorBound(0.02, 0.1), ErrorBound(0.0))

@@ -8,7 +8,7 @@ import pytest
 from ial.datasets.sample import make_sample, sample_grid, sample_map_path, sample_recording, sample_recording_path
 from ial.datasets.scan import BeamClass
 from ial.datasets.trajectory import read_tum
-from ial.maps.map_file import read_map
+from ial.maps.grids.map_file import read_map
 
 
 def test_the_sample_holds_the_demo(data_folder: Path) -> None:

@@ -14,8 +14,8 @@ from ial.datasets.scan import BeamClass, Mounting
 from ial.datasets.simulator import Lidar, SensorErrors, Simulation, simulate
 from ial.datasets.walk import random_walk
 from ial.errors import ConfigError
-from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
-from ial.maps.ray_casting import cast_rays
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
+from ial.maps.grids.ray_casting import cast_rays
 from ial.pose import Pose
 
 BOUNDS = MotionBounds(ErrorBound(0.02, 0.1, 0.05), ErrorBound(0.01, 0.02, 0.1))

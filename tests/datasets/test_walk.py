@@ -7,7 +7,7 @@ import pytest
 
 from ial.datasets.walk import random_walk
 from ial.errors import MapError
-from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 
 

@@ -11,9 +11,9 @@ from ial.datasets.motion import Motion
 from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.scan import LaserScan, Mounting
-from ial.lidar.config import LocalizerConfig
-from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
-from ial.maps.ray_casting import cast_rays
+from ial.lidar.configuration.config import LocalizerConfig
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.maps.grids.ray_casting import cast_rays
 from ial.pose import Pose
 from ial.study.possible_motions import possible_motions
 from tests.lidar.fuzz_settings import factors, random_config, random_map

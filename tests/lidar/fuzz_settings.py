@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from ial.datasets.motion import ErrorBound, MotionBounds
-from ial.lidar.config import Bounds, FreeSpace, LidarBounds, LocalizerConfig, Precision
-from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
+from ial.lidar.configuration.config import Bounds, FreeSpace, LidarBounds, LocalizerConfig, Precision
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
 from ial.pose import Pose
 
 Random = np.random.Generator

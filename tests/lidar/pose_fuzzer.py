@@ -12,9 +12,9 @@ import numpy as np
 from ial.contractors.boxes import Boxes
 from ial.errors import ConfigError, MapError
 from ial.lidar import Atlas, Estimate, Localizer, ScanContractor
-from ial.lidar.beams import scan_beams
-from ial.maps.cell_index import CellIndex
-from ial.maps.occupancy_grid import OCCUPIED
+from ial.lidar.evidence.beams import scan_beams
+from ial.maps.grids.cell_index import CellIndex
+from ial.maps.grids.occupancy_grid import OCCUPIED
 from ial.study import UsedBeams, consistent
 from tests.lidar.box_index import BoxIndex
 from tests.lidar.fuzz_drives import MODES, Drive, Moment, random_drive

@@ -13,7 +13,7 @@ import numpy as np
 from ial.contractors.boxes import Boxes
 from ial.datasets.motion import Motion
 from ial.lidar import Hypothesis, PoseSet
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
 from ial.study import Domain, Obstacles, UsedBeams, consistent
 from tests.lidar.box_index import BoxIndex

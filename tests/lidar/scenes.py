@@ -10,9 +10,9 @@ from ial.datasets.motion import ErrorBound, MotionBounds
 from ial.datasets.scan import Mounting
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.datasets.walk import random_walk
-from ial.lidar.config import Bounds, LocalizerConfig, Precision
-from ial.maps.floor_plan import floor_plan
-from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
+from ial.lidar.configuration.config import Bounds, LocalizerConfig, Precision
+from ial.maps.grids.floor_plan import floor_plan
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
 from ial.pose import Pose
 
 CLEARANCE_M = 0.25  # more than a map is ever shifted, so that the robot stays in free cells of the shifted map

@@ -21,13 +21,13 @@ from ial.datasets.recording import steps
 from ial.datasets.scan import BeamClass, LaserScan
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.datasets.walk import random_walk
-from ial.lidar.config import Bounds, LocalizerConfig, Precision
+from ial.lidar.configuration.config import Bounds, LocalizerConfig, Precision
 from ial.lidar.localizer import Localizer
 from ial.lidar.pose_set import PoseSet
-from ial.maps.cell_contractor import CellContractor
-from ial.maps.cell_index import CellIndex
-from ial.maps.floor_plan import floor_plan
-from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.maps.grids.cell_contractor import CellContractor
+from ial.maps.grids.cell_index import CellIndex
+from ial.maps.grids.floor_plan import floor_plan
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 
 BOUNDS = Bounds(range_error_m=0.03, bearing_error_rad=0.002, map_error_m=0.02)

@@ -13,10 +13,10 @@ from ial.datasets.simulator import Lidar, SensorErrors, Simulation, simulate
 from ial.datasets.walk import random_walk
 from ial.errors import ConfigError
 from ial.lidar.atlas import Atlas
-from ial.lidar.config import Bounds, LocalizerConfig
+from ial.lidar.configuration.config import Bounds, LocalizerConfig
 from ial.lidar.localizer import Localizer
-from ial.maps.floor_plan import floor_plan
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.maps.grids.floor_plan import floor_plan
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
 
 MOTION = MotionBounds(ErrorBound(0.05, 0.1), ErrorBound(0.04, 0.0, 0.1))

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from ial.lidar.beams import scan_beams, select_beams
-from ial.lidar.config import LocalizerConfig
+from ial.lidar.configuration.config import LocalizerConfig
+from ial.lidar.evidence.beams import scan_beams, select_beams
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
 from ial.study.good_beams import bad_beams

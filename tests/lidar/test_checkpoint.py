@@ -8,7 +8,7 @@ from ial.datasets.recording import Recording, steps
 from ial.datasets.sample import sample_grid, sample_recording
 from ial.errors import OutputError, RecordingError
 from ial.lidar.checkpoint import Checkpoint, fingerprint
-from ial.lidar.config import LocalizerConfig
+from ial.lidar.configuration.config import LocalizerConfig
 from ial.lidar.localizer import Localizer
 from ial.lidar.output_end import OutputEnd
 from ial.lidar.run import localize

@@ -8,10 +8,10 @@ import pytest
 from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.angle import contains_angle
 from ial.contractors.intervals.trigonometric import PI_UPPER
-from ial.lidar.config import LocalizedSize
+from ial.lidar.configuration.config import LocalizedSize
 from ial.lidar.estimate import Hypothesis, find_hypotheses, judge, radius
 from ial.lidar.pose_set import PoseSet, unite
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.pose import Pose, wrap
 
 SMALL = Hypothesis((1.0, 2.0), (3.0, 3.5), (0.0, 0.25), 4, 0.125)

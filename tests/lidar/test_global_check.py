@@ -9,11 +9,11 @@ from ial.datasets.motion import Motion, MotionBounds
 from ial.datasets.scan import LaserScan
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.errors import MapError
-from ial.lidar.beams import scan_beams
-from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
+from ial.lidar.configuration.config import Bounds, FreeSpace, LocalizerConfig
+from ial.lidar.evidence.beams import scan_beams
 from ial.lidar.global_check import check_everywhere
 from ial.lidar.localizer import Localizer
-from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 
 CONFIG = LocalizerConfig(bounds=Bounds(0.02, 0.0, 0.0), outliers=0.4, free_space=FreeSpace(use=False))

@@ -13,12 +13,12 @@ from ial.datasets.scan import Mounting
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.datasets.walk import random_walk
 from ial.errors import ConfigError
-from ial.lidar.beams import scan_beams
-from ial.lidar.config import Bounds, LidarBounds, LocalizerConfig
+from ial.lidar.configuration.config import Bounds, LidarBounds, LocalizerConfig
+from ial.lidar.evidence.beams import scan_beams
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
-from ial.maps.floor_plan import floor_plan
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.maps.grids.floor_plan import floor_plan
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
 
 MOTION = MotionBounds(ErrorBound(0.02, 0.05, 0.0), ErrorBound(0.02, 0.0, 0.05))

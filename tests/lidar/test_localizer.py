@@ -19,11 +19,11 @@ from ial.datasets.scan import LaserScan
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.datasets.walk import random_walk
 from ial.errors import ConfigError, MapError
-from ial.lidar.config import Bounds, LocalizerConfig, Precision
+from ial.lidar.configuration.config import Bounds, LocalizerConfig, Precision
 from ial.lidar.estimate import Estimate
 from ial.lidar.localizer import Localizer
-from ial.maps.floor_plan import floor_plan
-from ial.maps.occupancy_grid import FREE, OccupancyGrid
+from ial.maps.grids.floor_plan import floor_plan
+from ial.maps.grids.occupancy_grid import FREE, OccupancyGrid
 from ial.pose import Pose
 
 MOTION = MotionBounds(ErrorBound(0.05, 0.1, 0.0), ErrorBound(0.03, 0.0, 0.1))

@@ -11,21 +11,21 @@ import pytest
 from ial.contractors.boxes import Boxes
 from ial.datasets.scan import LaserScan, Mounting
 from ial.errors import ConfigError, RecordingError
-from ial.lidar.beams import Beams, select_beams
-from ial.lidar.bit_columns import BitColumns
-from ial.lidar.cell_counts import count_cells
-from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
-from ial.lidar.directions import unit_vectors
-from ial.lidar.end_points import relative_bounds
+from ial.lidar.configuration.config import Bounds, FreeSpace, LocalizerConfig
 from ial.lidar.estimate import radius
-from ial.lidar.free_space import count_blocked
-from ial.lidar.lattice import Lattice, divide
+from ial.lidar.evidence.beams import Beams, select_beams
+from ial.lidar.evidence.directions import unit_vectors
+from ial.lidar.evidence.end_points import relative_bounds
+from ial.lidar.evidence.rays import Rays
 from ial.lidar.margins import MARGIN, MOST_BEAMS, MOST_CELLS, MOST_PARTS, REACH
 from ial.lidar.pose_set import PoseSet
-from ial.lidar.rays import Rays
-from ial.lidar.scan_contractor import ScanContractor
-from ial.maps.cell_index import CellIndex
-from ial.maps.occupancy_grid import OccupancyGrid
+from ial.lidar.search.bit_columns import BitColumns
+from ial.lidar.search.cell_counts import count_cells
+from ial.lidar.search.free_space import count_blocked
+from ial.lidar.search.lattice import Lattice, divide
+from ial.lidar.search.scan_contractor import ScanContractor
+from ial.maps.grids.cell_index import CellIndex
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
 
 RESOLUTIONS = [0.05, 0.0333, 1.0 / 3.0, 0.1, 0.07]

@@ -10,12 +10,12 @@ from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.datasets.motion import Motion
 from ial.datasets.scan import LaserScan
 from ial.errors import ConfigError, MapError
-from ial.lidar.beams import Beams, select_beams
-from ial.lidar.config import Bounds, LocalizerConfig, Precision
+from ial.lidar.configuration.config import Bounds, LocalizerConfig, Precision
+from ial.lidar.evidence.beams import Beams, select_beams
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet, unite
-from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
-from ial.maps.ray_casting import cast_rays
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
+from ial.maps.grids.ray_casting import cast_rays
 from ial.pose import Pose
 
 CONFIG = LocalizerConfig(bounds=Bounds(0.02, 0.0, 0.01), outliers=0, precision=Precision(0.2, 0.1))

@@ -14,14 +14,14 @@ from ial.datasets.scan import LaserScan
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.datasets.walk import random_walk
 from ial.lidar.atlas import Atlas
-from ial.lidar.beams import scan_beams
-from ial.lidar.config import Bounds, LocalizerConfig, Precision
+from ial.lidar.configuration.config import Bounds, LocalizerConfig, Precision
 from ial.lidar.estimate import find_hypotheses
+from ial.lidar.evidence.beams import scan_beams
 from ial.lidar.localizer import Localizer
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet
-from ial.maps.floor_plan import floor_plan
-from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.maps.grids.floor_plan import floor_plan
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 
 MOTION = MotionBounds(ErrorBound(0.05, 0.1), ErrorBound(0.03, 0.0, 0.1))
 AUTO = LocalizerConfig(Bounds(0.03, 0.0, 0.01, MOTION), "auto", 2, 0.6, 1.0, precision=Precision(0.2, 0.1, 0))

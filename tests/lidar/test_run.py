@@ -13,10 +13,10 @@ from ial.datasets.scan import LaserScan
 from ial.datasets.simulator import Lidar, SensorErrors, Simulation, simulate
 from ial.datasets.walk import random_walk
 from ial.errors import RecordingError
-from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig, Precision
+from ial.lidar.configuration.config import Bounds, FreeSpace, LocalizerConfig, Precision
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
-from ial.maps.floor_plan import floor_plan
+from ial.maps.grids.floor_plan import floor_plan
 from ial.pose import Pose
 
 MOTION = MotionBounds(ErrorBound(0.05, 0.1, 0.0), ErrorBound(0.03, 0.0, 0.1))

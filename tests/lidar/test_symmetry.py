@@ -11,12 +11,12 @@ from ial.datasets.motion import ErrorBound, Motion, MotionBounds
 from ial.datasets.recording import steps
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.datasets.walk import random_walk
-from ial.lidar.config import Bounds, LocalizerConfig, Precision
+from ial.lidar.configuration.config import Bounds, LocalizerConfig, Precision
 from ial.lidar.images import are_images
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
-from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
-from ial.maps.symmetry import symmetries
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
+from ial.maps.grids.symmetry import symmetries
 from ial.pose import Pose
 
 MOTION = MotionBounds(ErrorBound(0.03, 0.1, 0.0), ErrorBound(0.02, 0.0, 0.1))

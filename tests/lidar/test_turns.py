@@ -17,19 +17,19 @@ from ial.datasets.mark import Mark
 from ial.datasets.motion import Motion
 from ial.datasets.odometry import Odometry
 from ial.datasets.scan import LaserScan
-from ial.lidar.beams import Beams, scan_beams
 from ial.lidar.checkpoint import Checkpoint, fingerprint
-from ial.lidar.config import Bounds, LocalizerConfig, Precision
+from ial.lidar.configuration.config import Bounds, LocalizerConfig, Precision
 from ial.lidar.estimate import Estimate
-from ial.lidar.lattice import Lattice
+from ial.lidar.evidence.beams import Beams, scan_beams
 from ial.lidar.localizer import Localizer
 from ial.lidar.model import LidarModel
-from ial.lidar.pose_contractor import PoseContractor
 from ial.lidar.pose_set import PoseSet
-from ial.lidar.prediction import move
-from ial.lidar.scan_contractor import ScanContractor
-from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
-from ial.maps.ray_casting import cast_rays
+from ial.lidar.search.lattice import Lattice
+from ial.lidar.search.pose_contractor import PoseContractor
+from ial.lidar.search.prediction import move
+from ial.lidar.search.scan_contractor import ScanContractor
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.maps.grids.ray_casting import cast_rays
 from ial.pose import Pose
 
 CONFIG = LocalizerConfig(bounds=Bounds(0.02, 0.0, 0.01), outliers=0, precision=Precision(0.2, 0.1))

@@ -16,15 +16,15 @@ from ial.datasets.recording import steps
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.datasets.walk import random_walk
 from ial.lidar.atlas import Atlas
-from ial.lidar.beams import scan_beams
-from ial.lidar.config import Bounds, LocalizerConfig, Precision
+from ial.lidar.configuration.config import Bounds, LocalizerConfig, Precision
 from ial.lidar.estimate import Estimate
+from ial.lidar.evidence.beams import scan_beams
 from ial.lidar.localizer import Localizer
 from ial.lidar.pose_set import PoseSet
 from ial.lidar.run import localize
 from ial.lidar.vanishing import is_vanishing, leeway
-from ial.maps.floor_plan import floor_plan
-from ial.maps.map_file import read_map
+from ial.maps.grids.floor_plan import floor_plan
+from ial.maps.grids.map_file import read_map
 from ial.pose import Pose
 from ial.study.good_beams import bad_beams
 from ial.study.obstacles import Obstacles

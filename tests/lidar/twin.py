@@ -7,11 +7,11 @@ import numpy as np
 
 from ial.contractors.boxes import Boxes, FloatArray
 from ial.datasets.scan import BeamClass, LaserScan, Mounting
-from ial.lidar.beams import Beams, select_beams
-from ial.lidar.config import Bounds, LocalizerConfig
-from ial.maps.cell_index import CellIndex
-from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
-from ial.maps.ray_casting import cast_rays
+from ial.lidar.configuration.config import Bounds, LocalizerConfig
+from ial.lidar.evidence.beams import Beams, select_beams
+from ial.maps.grids.cell_index import CellIndex
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.maps.grids.ray_casting import cast_rays
 from ial.pose import Pose
 from ial.study.good_beams import good_beams
 from ial.study.obstacles import Obstacles

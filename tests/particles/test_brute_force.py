@@ -10,8 +10,8 @@ from ial.datasets.scan import LaserScan, Mounting
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.datasets.walk import random_walk
 from ial.errors import ConfigError, MapError, RecordingError
-from ial.maps.floor_plan import floor_plan
-from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.maps.grids.floor_plan import floor_plan
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.particles.brute_force import BruteForce
 from ial.particles.likelihood_field import BeamModel
 from ial.pose import Pose, wrap

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ial.errors import ConfigError
-from ial.maps.occupancy_grid import OCCUPIED, UNKNOWN, OccupancyGrid
+from ial.maps.grids.occupancy_grid import OCCUPIED, UNKNOWN, OccupancyGrid
 from ial.particles.likelihood_field import BeamModel, LikelihoodField, score
 
 

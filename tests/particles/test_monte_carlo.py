@@ -10,8 +10,8 @@ from ial.datasets.scan import LaserScan
 from ial.datasets.simulator import Lidar, SensorErrors, Simulation, simulate
 from ial.datasets.walk import random_walk
 from ial.errors import ConfigError, MapError
-from ial.maps.floor_plan import floor_plan
-from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.maps.grids.floor_plan import floor_plan
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.particles.likelihood_field import BeamModel
 from ial.particles.monte_carlo import Cloud, MonteCarlo, MonteCarloConfig
 from ial.particles.odometry_model import OdometryModel

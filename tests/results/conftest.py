@@ -11,12 +11,12 @@ from ial.datasets.odometry import Odometry
 from ial.datasets.recording import Step
 from ial.datasets.sample import sample_grid, sample_recording
 from ial.datasets.scan import LaserScan, Mounting
-from ial.lidar.config import Bounds
+from ial.lidar.configuration.config import Bounds
 from ial.lidar.estimate import Estimate, find_hypotheses
 from ial.lidar.localizer import Localizer
 from ial.lidar.pose_set import PoseSet
 from ial.lidar.run import localize
-from ial.maps.occupancy_grid import OCCUPIED, OccupancyGrid
+from ial.maps.grids.occupancy_grid import OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 
 Run = list[tuple[Step, Estimate]]

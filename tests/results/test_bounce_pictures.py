@@ -6,18 +6,18 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from ial.bouncing.bounce_filter import BounceFilter
-from ial.bouncing.building import build_filter
-from ial.bouncing.cell_map import CellMap
-from ial.bouncing.headings import Headings
+from ial.bouncing.cells.cell_map import CellMap
+from ial.bouncing.cells.headings import Headings
+from ial.bouncing.filters.bounce_filter import BounceFilter
+from ial.bouncing.filters.building import build_filter
 from ial.errors import FilterError, OutputError
-from ial.maps.environment import Environment
-from ial.maps.outline import outlines
-from ial.maps.raster import rasterize
-from ial.results.automaton_picture import MOST_STATES, draw_automaton
-from ial.results.basin_picture import draw_basins
-from ial.results.bounce_ground import BRIGHT, BounceGround
-from ial.results.cycle_picture import draw_cycles
+from ial.maps.polygons.environment import Environment
+from ial.maps.polygons.outline import outlines
+from ial.maps.polygons.raster import rasterize
+from ial.results.bouncing.automaton_picture import MOST_STATES, draw_automaton
+from ial.results.bouncing.basin_picture import draw_basins
+from ial.results.bouncing.cycle_picture import draw_cycles
+from ial.results.bouncing.ground import BRIGHT, BounceGround
 from ial.results.palette import UNKNOWN, rgb
 
 Image = npt.NDArray[np.uint8]

@@ -12,8 +12,8 @@ from ial.datasets.motion import ErrorBound, MotionBounds
 from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_path import OdometryPath
 from ial.datasets.scan import LaserScan, Mounting
-from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
-from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.lidar.configuration.config import Bounds, FreeSpace, LocalizerConfig
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.study.blocked_rays import blocked_rays
 from ial.study.obstacles import Obstacles
 from ial.study.open_strips import open_strips

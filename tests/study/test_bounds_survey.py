@@ -10,11 +10,11 @@ from ial.datasets.motion import ErrorBound, MotionBounds
 from ial.datasets.recording import steps
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.datasets.walk import random_walk
-from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
-from ial.maps.floor_plan import floor_plan
-from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.lidar.configuration.config import Bounds, FreeSpace, LocalizerConfig
+from ial.maps.grids.floor_plan import floor_plan
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.pose import Pose
-from ial.results.failure_picture import draw_failures
+from ial.results.lidar.failure_picture import draw_failures
 from ial.study.bounds_survey import OUTLIERS, TOTALS_M, BoundsSurvey
 from ial.study.motion_fit import RecordedStep, fitted
 from ial.study.obstacles import Obstacles

@@ -10,12 +10,12 @@ from ial.datasets.odometry import Odometry
 from ial.datasets.recording import Step
 from ial.datasets.scan import LaserScan, Mounting
 from ial.datasets.trajectory import Trajectory
-from ial.lidar.config import Bounds, LocalizerConfig
+from ial.lidar.configuration.config import Bounds, LocalizerConfig
 from ial.lidar.estimate import Estimate, find_hypotheses
 from ial.lidar.localizer import Localizer
 from ial.lidar.pose_set import PoseSet
-from ial.maps.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
-from ial.maps.ray_casting import cast_rays
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
+from ial.maps.grids.ray_casting import cast_rays
 from ial.pose import Pose
 from ial.study.containment import Containment
 

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from ial.lidar.config import LocalizerConfig
-from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
+from ial.lidar.configuration.config import LocalizerConfig
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
 from ial.study.domain import Domain
 from ial.study.obstacles import Obstacles
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ial.datasets.scan import LaserScan, Mounting
-from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
-from ial.maps.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
+from ial.lidar.configuration.config import Bounds, FreeSpace, LocalizerConfig
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
 from ial.study.blocked_rays import blocked_rays
 from ial.study.good_beams import bad_beams, good_beams
 from ial.study.obstacles import Obstacles

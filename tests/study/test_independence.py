@@ -9,20 +9,26 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import ial.lidar.beams
+import ial.lidar.evidence.beams
 from ial.datasets.motion import ErrorBound, MotionBounds
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.datasets.walk import random_walk
-from ial.lidar.beams import Beams
-from ial.lidar.config import Bounds, FreeSpace, LocalizerConfig
+from ial.lidar.configuration.config import Bounds, FreeSpace, LocalizerConfig
+from ial.lidar.evidence.beams import Beams
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
-from ial.maps.floor_plan import floor_plan
+from ial.maps.grids.floor_plan import floor_plan
 from ial.study.containment import Containment
 
 ROOT = Path(__file__).resolve().parents[2]
 TWIN = ("used_beams", "obstacles", "open_strips", "good_beams", "blocked_rays", "domain", "possible_motions")
-RECORDS = {"ial.datasets.motion", "ial.datasets.odometry_path", "ial.datasets.scan", "ial.lidar.config", "ial.maps.occupancy_grid"}
+RECORDS = {
+    "ial.datasets.motion",
+    "ial.datasets.odometry_path",
+    "ial.datasets.scan",
+    "ial.lidar.configuration.config",
+    "ial.maps.grids.occupancy_grid",
+}
 MOTION = MotionBounds(ErrorBound(0.05), ErrorBound(0.05))
 
 
@@ -54,8 +60,8 @@ def test_an_error_in_the_evidence_of_the_search_is_seen(monkeypatch: pytest.Monk
     lidar = Lidar(beams=90, angle_min=-2.0, angle_increment=0.04, range_max=20.0)
     run = simulate(grid, random_walk(grid, 8, 1), lidar, SensorErrors(0.02, 0.0), MOTION, 1)
     config = LocalizerConfig(bounds=Bounds(0.02, 0.0, 0.01, MOTION), outliers=3, free_space=FreeSpace(use=False))
-    select = ial.lidar.beams.select_beams
-    monkeypatch.setattr(ial.lidar.beams, "select_beams", lambda *given: change(select(*given)))
+    select = ial.lidar.evidence.beams.select_beams
+    monkeypatch.setattr(ial.lidar.evidence.beams, "select_beams", lambda *given: change(select(*given)))
     localizer = Localizer(grid, config=config)
     measured = Containment(localizer, run.truth)
     for step, estimate in localize(run.recording, localizer):

@@ -9,7 +9,7 @@ import pytest
 from ial.datasets.motion import ErrorBound, MotionBounds
 from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_path import OdometryPath
-from ial.lidar.sweep import sweep_boxes
+from ial.lidar.evidence.sweep import sweep_boxes
 from ial.pose import Pose
 from ial.study.possible_motions import possible_motions
 from tests.study.scans import swept

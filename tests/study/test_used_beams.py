@@ -10,7 +10,7 @@ import pytest
 
 from ial.datasets.motion import ErrorBound, MotionBounds
 from ial.datasets.scan import LaserScan, Mounting
-from ial.lidar.config import Bounds, FreeSpace, LidarBounds, LocalizerConfig
+from ial.lidar.configuration.config import Bounds, FreeSpace, LidarBounds, LocalizerConfig
 from ial.pose import Pose
 from ial.study.used_beams import UsedBeams, in_grid, spread
 from tests.study.scans import swept

@@ -1,6 +1,6 @@
 """`csv_text`: the states of a filter as a table for spreadsheets and scripts."""
 
-from ial.bouncing.table import FilterTable
+from ial.bouncing.automata.table import FilterTable
 
 
 def csv_text(table: FilterTable) -> str:

@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 
-from ial.bouncing.bounce_filter import BounceFilter
+from ial.bouncing.automata.minimal import Keep, minimize
+from ial.bouncing.automata.table import FilterTable
 from ial.bouncing.exports.state_places import StatePlaces
-from ial.bouncing.minimal import Keep, minimize
-from ial.bouncing.setting import Setting
-from ial.bouncing.table import FilterTable
+from ial.bouncing.filters.bounce_filter import BounceFilter
+from ial.bouncing.filters.setting import Setting
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ial.bouncing.nondeterministic import NondeterministicAutomaton
-from ial.bouncing.table import FilterTable
+from ial.bouncing.automata.nondeterministic import NondeterministicAutomaton
+from ial.bouncing.automata.table import FilterTable
 
 Transition = tuple[int, str, int]
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ial.bouncing.bounce_filter import BounceFilter
-from ial.bouncing.heading_classes import HeadingClasses
+from ial.bouncing.cells.heading_classes import HeadingClasses
+from ial.bouncing.filters.bounce_filter import BounceFilter
 
 IntArray = npt.NDArray[np.int64]
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ial.bouncing.automata.table import FilterTable
 from ial.bouncing.exports.exported_filter import ExportedFilter
 from ial.bouncing.exports.identifier import check_identifier
-from ial.bouncing.table import FilterTable
 from ial.errors import ConfigError
 
 _MODULE = """\

@@ -5,11 +5,11 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from ial.bouncing.bounce_filter import BounceFilter
-from ial.bouncing.building import build_filter
-from ial.bouncing.headings import Headings
-from ial.maps.environment import Environment
-from ial.maps.outline import outlines
+from ial.bouncing.cells.headings import Headings
+from ial.bouncing.filters.bounce_filter import BounceFilter
+from ial.bouncing.filters.building import build_filter
+from ial.maps.polygons.environment import Environment
+from ial.maps.polygons.outline import outlines
 from tests.bouncing.exports.rooms import ROOMS
 
 

@@ -4,9 +4,9 @@ from fractions import Fraction
 
 import numpy as np
 
-from ial.bouncing.bounce_filter import BounceFilter
-from ial.bouncing.cell_map import CellMap
-from ial.maps.raster import Raster
+from ial.bouncing.cells.cell_map import CellMap
+from ial.bouncing.filters.bounce_filter import BounceFilter
+from ial.maps.polygons.raster import Raster
 from tests.bouncing.worlds import drawn, observations
 
 ROOMS = {

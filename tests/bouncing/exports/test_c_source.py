@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ial.bouncing.bounce_filter import BounceFilter, Place
+from ial.bouncing.automata.table import FilterTable
 from ial.bouncing.exports.c_array import CArray
 from ial.bouncing.exports.c_source import c_header
 from ial.bouncing.exports.c_tables import CTables
 from ial.bouncing.exports.exported_filter import ExportedFilter
-from ial.bouncing.table import FilterTable
+from ial.bouncing.filters.bounce_filter import BounceFilter, Place
 from ial.errors import ConfigError
 from tests.bouncing.exports.rooms import own_streams, random_streams
 from tests.bouncing.worlds import drawn
@@ -162,10 +162,10 @@ def test_wide_tables_are_compiled(tmp_path: Path) -> None:
 
 
 def small_filter() -> BounceFilter:
-    from ial.bouncing.building import build_filter
-    from ial.bouncing.headings import Headings
-    from ial.maps.environment import Environment
-    from ial.maps.outline import outlines
+    from ial.bouncing.cells.headings import Headings
+    from ial.bouncing.filters.building import build_filter
+    from ial.maps.polygons.environment import Environment
+    from ial.maps.polygons.outline import outlines
 
     name = 'a */ b\\\n"c" ??/ é'
     return build_filter({name: Environment(outlines(drawn("... .#."), Fraction(1)), Fraction(1))}, Headings.of_angle(Fraction(90)))

@@ -5,13 +5,13 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from ial.bouncing.bounce_filter import BounceFilter
-from ial.bouncing.determinization import determinize
+from ial.bouncing.automata.determinization import determinize
+from ial.bouncing.automata.nondeterministic import NondeterministicAutomaton
+from ial.bouncing.automata.table import FilterTable
 from ial.bouncing.exports.automata_lib import to_automata
 from ial.bouncing.exports.finite_automaton import FiniteAutomaton
 from ial.bouncing.exports.jflap import jff_text, read_jff
-from ial.bouncing.nondeterministic import NondeterministicAutomaton
-from ial.bouncing.table import FilterTable
+from ial.bouncing.filters.bounce_filter import BounceFilter
 from ial.errors import FilterError
 from tests.bouncing.exports.rooms import random_streams
 from tests.bouncing.worlds import HALL, cell_map

@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ial.bouncing.bounce_filter import BounceFilter
+from ial.bouncing.automata.table import FilterTable
 from ial.bouncing.exports.archive import plain_archive
 from ial.bouncing.exports.csv_table import csv_text
 from ial.bouncing.exports.dot import dot_text
 from ial.bouncing.exports.exported_filter import ExportedFilter
 from ial.bouncing.exports.formats import export, format_of
-from ial.bouncing.table import FilterTable
+from ial.bouncing.filters.bounce_filter import BounceFilter
 from ial.errors import ConfigError, OutputError
 
 NODE = re.compile(r'  (\d+) \[label="([^"]*)"([^]]*)\];')

@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from ial.bouncing.bounce_filter import BounceFilter
+from ial.bouncing.automata.table import FilterTable
 from ial.bouncing.exports.exported_filter import ExportedFilter
 from ial.bouncing.exports.verilog import WordLayout, memory_image, verilog_module
-from ial.bouncing.table import FilterTable
+from ial.bouncing.filters.bounce_filter import BounceFilter
 from ial.errors import ConfigError
 from tests.bouncing.exports.rooms import own_streams, random_streams
 

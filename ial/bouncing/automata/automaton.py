@@ -1,0 +1,108 @@
+"""`Automaton`: the deterministic I-state automaton (definition 7 of Alam et al. 2017): its states are sets of places the robot can be in.
+
+The paper bounds its states by O(N²) (proposition 1). For labelled graphs in general that is false: five cycles of 2·3, 2·5, … 2·13 vertices
+with labels that repeat 01 give one knowledge cycle of 30,030 states, the least common multiple. Cell maps are invariant under translation,
+which rules this out; the number of states is limited all the same.
+"""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from ial.bouncing.cells.graph import LabelledGraph
+from ial.errors import FilterError
+
+IN_NO_CYCLE = 1
+
+
+@dataclass(frozen=True, eq=False)
+class KnowledgeCycles:
+    """The closed paths that the automaton never leaves; cycle i has the colour i + 2.
+
+    Parameters
+    ----------
+    anchors
+        One state of each cycle, int32 of shape (cycles,).
+    lengths
+        How many states each has, int64 of shape (cycles,).
+    uncertainty
+        How many configurations the robot can be in, the same for all states of a cycle, int64 of shape (cycles,).
+    starts, members
+        The set of the anchor of cycle i is ``members[starts[i] : starts[i + 1]]``: vertices, int32.
+    """
+
+    anchors: npt.NDArray[np.int32]
+    lengths: npt.NDArray[np.int64]
+    uncertainty: npt.NDArray[np.int64]
+    starts: npt.NDArray[np.int64]
+    members: npt.NDArray[np.int32]
+
+    def __len__(self) -> int:
+        return len(self.anchors)
+
+
+@dataclass(frozen=True, eq=False)
+class Automaton:
+    """A deterministic automaton over bumps; state 0 is the start, where nothing is known.
+
+    Parameters
+    ----------
+    graph
+        What it was made from.
+    successors
+        The state behind each observation, int32 of shape (states, 2), −1 where no vertex of the set can make it.
+    sizes
+        How many vertices the set of each state has, int32 of shape (states,).
+    uncertainty
+        How many configurations they stand for, int64 of shape (states,).
+    environments
+        In which environments the robot can be, as bits, uint64 of shape (states,).
+    colours
+        1 outside of knowledge cycles, else 2 + number of the cycle, int32 of shape (states,).
+    cycles
+        The knowledge cycles.
+    depth
+        After so many observations every robot is in a knowledge cycle, and some need as many.
+    """
+
+    graph: LabelledGraph = field(repr=False)
+    successors: npt.NDArray[np.int32] = field(repr=False)
+    sizes: npt.NDArray[np.int32] = field(repr=False)
+    uncertainty: npt.NDArray[np.int64] = field(repr=False)
+    environments: npt.NDArray[np.uint64] = field(repr=False)
+    colours: npt.NDArray[np.int32] = field(repr=False)
+    cycles: KnowledgeCycles = field(repr=False)
+    depth: int
+
+    def __len__(self) -> int:
+        return len(self.successors)
+
+    @cached_property
+    def _places(self) -> npt.NDArray[np.int64]:
+        """How many steps each state stands behind the anchor of its cycle."""
+        places = np.zeros(len(self), dtype=np.int64)
+        for anchor, length in zip(self.cycles.anchors, self.cycles.lengths, strict=True):
+            state = int(anchor)
+            for place in range(int(length)):
+                places[state] = place
+                state = int(self.successors[state].max())
+        return places
+
+    def cells(self, state: int) -> npt.NDArray[np.int32]:
+        """Return the vertices of a state of a knowledge cycle, in increasing order.
+
+        Raises
+        ------
+        FilterError
+            If the state is on no knowledge cycle; only those sets are kept.
+        """
+        cycle = int(self.colours[state]) - 2
+        if cycle < 0:
+            raise FilterError(f"state {state} is on no knowledge cycle, so its set is not kept; use `BouncingModel` for all sets")
+        found = self.cycles.members[self.cycles.starts[cycle] : self.cycles.starts[cycle + 1]]
+        for _ in range(int(self._places[state])):
+            arcs = self.graph.arcs[found]
+            found = np.where(arcs < 0, ~arcs, arcs)
+        return np.sort(found)

@@ -1,0 +1,55 @@
+"""`determinize`: from a labelled graph to its deterministic automaton."""
+
+import numpy as np
+
+from ial.bouncing.automata.automaton import Automaton, KnowledgeCycles
+from ial.bouncing.automata.subset import TOO_MANY, construct, depth_and_colours
+from ial.bouncing.automata.verification import compare_sets
+from ial.bouncing.cells.graph import MOST_PARTS, LabelledGraph
+from ial.errors import FilterError
+
+MOST_STATES, LARGEST_LIMIT = 2**24, 2**30
+
+
+def determinize(graph: LabelledGraph, most_states: int = MOST_STATES, verify: bool = False) -> Automaton:
+    """Return the deterministic automaton of a graph, by subset construction.
+
+    Parameters
+    ----------
+    graph
+        The cells and where they lead; the robot can start in any of them.
+    most_states
+        The number of states at which to give up, at most 2³⁰.
+    verify
+        Also compare the sets behind all arcs, element by element. Sets are otherwise recognized by 128 bits and their size, which confuses
+        two of them with a probability below 10⁻²⁰ for as many states as fit into a memory.
+
+    Raises
+    ------
+    FilterError
+        If there would be more states, or `verify` finds two sets that were confused.
+    """
+    none = np.empty(0, dtype=np.int32)
+    many = len(graph.starts) > 2
+    if len(graph.starts) > MOST_PARTS + 1:
+        raise FilterError(f"the graph has {len(graph.starts) - 1} environments; at most {MOST_PARTS} are supported")
+    parts = np.repeat(np.arange(len(graph.starts) - 1, dtype=np.uint8), np.diff(graph.starts)) if many else np.empty(0, dtype=np.uint8)
+    outcome, states, successors, counts, sums, cycles, anchors, starts, members = construct(
+        graph.arcs, none if graph.weights is None else graph.weights, parts, min(most_states, LARGEST_LIMIT)
+    )
+    if outcome == TOO_MANY:
+        raise FilterError(
+            f"the automaton has more than {most_states} states; use larger cells, fewer headings or another angle, or allow more states"
+        )
+    successors, sizes = successors[:states].copy(), counts[:states, 0].astype(np.int32)
+    uncertainty = counts[:states, 0 if graph.weights is None else 1].copy()
+    environments = sums[:states, 2].copy() if many else np.ones(states, dtype=np.uint64)
+    anchors, colours = anchors[:cycles].copy(), np.empty(states, dtype=np.int32)
+    depth = depth_and_colours(successors, anchors, colours)
+    lengths = np.bincount(colours, minlength=cycles + 2)[2:]
+    starts = starts[: cycles + 1].copy()
+    found = KnowledgeCycles(anchors, lengths, uncertainty[anchors], starts, members[: starts[-1]].copy())
+    automaton = Automaton(graph, successors, sizes, uncertainty, environments, colours, found, int(depth))
+    if verify:
+        compare_sets(automaton)
+    return automaton

@@ -1,0 +1,96 @@
+"""`BounceFilter`: everything a robot needs to localize itself by bumps: the table, the places, and what it was built for."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from ial.bouncing.automata.table import FilterTable
+from ial.bouncing.cells.heading_classes import HeadingClasses
+from ial.bouncing.filters.cycle_places import CyclePlaces
+from ial.bouncing.filters.setting import Setting
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a robot can be: a cell, and headings that cannot be told apart.
+
+    Parameters
+    ----------
+    environment
+        Its name.
+    x_m, y_m
+        The centre of the cell in the frame of the environment, in metres.
+    headings_deg
+        The headings, counter-clockwise from the x axis, in degrees.
+    """
+
+    environment: str
+    x_m: Fraction
+    y_m: Fraction
+    headings_deg: tuple[Fraction, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class BounceFilter:
+    """A filter for one environment or several.
+
+    Parameters
+    ----------
+    table
+        The states and their successors.
+    places
+        The sets behind the states of knowledge cycles.
+    setting
+        What the filter was built for.
+    """
+
+    table: FilterTable
+    places: CyclePlaces
+    setting: Setting
+
+    @cached_property
+    def _steps(self) -> npt.NDArray[np.int64]:
+        """How many steps each state stands behind the anchor of its cycle."""
+        steps = np.full(len(self.table), -1, dtype=np.int64)
+        for anchor in self.places.anchors.tolist():
+            state, step = anchor, 0
+            while steps[state] < 0:
+                steps[state] = step
+                state, step = int(self.table.successors[state].min()), step + 1  # the other arc leads to the trap, the last state
+        return steps
+
+    @cached_property
+    def _classes(self) -> HeadingClasses:
+        headings = self.setting.headings
+        return HeadingClasses.merged(headings) if self.setting.merged else HeadingClasses.single(headings)
+
+    def step_of(self, heading_class: int) -> tuple[int, int]:
+        """Return by how many columns and rows a step leads in a class of headings, as they are numbered in the places."""
+        x, y = self._classes.offsets[heading_class]
+        return int(x), int(y)
+
+    @property
+    def trapped(self) -> int:
+        """In how many configurations a robot is so near to obstacles all around that it can only turn on the spot, for ever."""
+        places = self.places
+        following = places.following
+        turning = (places.row[following] == places.row) & (places.column[following] == places.column)
+        for _ in range(self.setting.headings.orbit):  # after so many bumps it has its first heading again
+            turning = turning & turning[following]
+        return int(self._classes.sizes[places.heading_class[turning]].sum())
+
+    def where(self, state: int) -> list[Place]:
+        """Return where the robot can be in a state of a knowledge cycle; nothing for other states, whose sets are not kept."""
+        if not self.table.is_localized(state):
+            return []
+        setting, places = self.setting, self.places
+        found = []
+        for vertex in places.at(int(self.table.colours[state]) - 2, int(self._steps[state])).tolist():
+            environment = int(places.environment[vertex])
+            x, y = setting.centre(environment, int(places.row[vertex]), int(places.column[vertex]))
+            members = self._classes.members(int(places.heading_class[vertex]))
+            found.append(Place(setting.names[environment], x, y, tuple(setting.headings.angle_deg(each) for each in members)))
+        return found

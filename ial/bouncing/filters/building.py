@@ -1,0 +1,116 @@
+"""`build_filter`: from environments to the filter of a robot in one of them."""
+
+from collections.abc import Mapping
+from fractions import Fraction
+
+from ial.bouncing.automata.determinization import MOST_STATES, determinize
+from ial.bouncing.automata.table import FilterTable
+from ial.bouncing.cells.cell_map import CellMap
+from ial.bouncing.cells.corner import Corner
+from ial.bouncing.cells.graph import disjoint_union
+from ial.bouncing.cells.headings import Headings
+from ial.bouncing.filters.bounce_filter import BounceFilter
+from ial.bouncing.filters.cycle_places import CyclePlaces
+from ial.bouncing.filters.setting import Setting
+from ial.errors import ConfigError, MapError
+from ial.maps.polygons.environment import Environment
+from ial.maps.polygons.erosion import erode
+from ial.maps.polygons.raster import Raster, Rule, rasterize
+
+
+def free_cells(environment: Environment, cell: Fraction, radius: Fraction = Fraction(0), rule: Rule = "inside") -> Raster:
+    """Return the cells in which the centre of a disk robot can be.
+
+    Raises
+    ------
+    MapError
+        If there is none, or there would be too many cells.
+    ConfigError
+        If a number cannot be meant.
+    """
+    raster = erode(rasterize(environment, cell, rule), radius, rule)
+    if not raster.free.any():
+        raise MapError(
+            f"no cell is free for a robot of radius {float(radius):g} m in cells of {float(cell):g} m; use smaller cells, a smaller radius "
+            "or the rule 'centre'"
+        )
+    return raster
+
+
+def all_free_cells(
+    environments: Mapping[str, Environment], cell: Fraction | None = None, radius: Fraction = Fraction(0), rule: Rule = "inside"
+) -> dict[str, Raster]:
+    """Return the free cells of several environments by their names, all of one width.
+
+    Parameters
+    ----------
+    environments
+        The environments by their names.
+    cell
+        The width of a cell in metres; by default that of the grid the environments come from.
+    radius, rule
+        As for `free_cells`.
+
+    Raises
+    ------
+    ConfigError
+        If there is no environment, a number cannot be meant, or the width of a cell is not known.
+    MapError
+        If an environment has no free cell, or there would be too many.
+    """
+    if not environments:
+        raise ConfigError("no environment to be in; give at least one")
+    width = cell or next(iter(environments.values())).cell
+    if width is None or (cell is None and any(each.cell != width for each in environments.values())):
+        raise ConfigError("the width of a cell is not known, since the environments are no grids with cells of one width; give it")
+    rasters = {}
+    for name, environment in environments.items():
+        try:
+            rasters[name] = free_cells(environment, width, radius, rule)
+        except MapError as error:
+            raise MapError(f"{name}: {error}") from None
+    return rasters
+
+
+def build_filter(
+    environments: Mapping[str, Environment],
+    headings: Headings,
+    cell: Fraction | None = None,
+    radius: Fraction = Fraction(0),
+    rule: Rule = "inside",
+    corner: Corner = "segment",
+    most_states: int = MOST_STATES,
+) -> BounceFilter:
+    """Return the filter of a robot that is in one of several environments.
+
+    Parameters
+    ----------
+    environments
+        The environments by their names.
+    headings
+        The headings, the bouncing angle and the step.
+    cell
+        The width of a cell in metres; by default that of the grid the environments come from.
+    radius
+        The radius of the robot in metres.
+    rule
+        When a cell is free, see `rasterize` and `erode`.
+    corner
+        What a step must not touch, see `passed_cells`.
+    most_states
+        The number of states at which to give up.
+
+    Raises
+    ------
+    ConfigError
+        If there is no environment, a number cannot be meant, or the width of a cell is not known.
+    MapError
+        If an environment has no free cell, or there would be too many.
+    FilterError
+        If there would be too many states.
+    """
+    rasters = all_free_cells(environments, cell, radius, rule)
+    maps = [CellMap(raster, headings, corner, merge=True) for raster in rasters.values()]
+    automaton = determinize(disjoint_union([each.graph for each in maps]), most_states)
+    setting = Setting.of_rasters(rasters, headings, radius, rule, corner)
+    return BounceFilter(FilterTable.of(automaton), CyclePlaces.of(automaton, maps), setting)

@@ -1,0 +1,88 @@
+"""Filters on disk: a NumPy archive (.npz) with a version and a checksum of everything in it."""
+
+import hashlib
+import json
+import zipfile
+import zlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ial.bouncing.automata.table import FilterTable
+from ial.bouncing.filters.bounce_filter import BounceFilter
+from ial.bouncing.filters.cycle_places import CyclePlaces
+from ial.bouncing.filters.setting import Setting
+from ial.errors import FilterError, IalError
+from ial.whole_file import whole_files
+
+_FORM, _VERSION = "ial bounce filter", 1
+_TABLE = {"successors": np.int32, "colours": np.int32, "uncertainty": np.int64, "environments": np.uint64}
+_PLACES = {
+    "environment": np.int32,
+    "row": np.int32,
+    "column": np.int32,
+    "heading_class": np.int32,
+    "following": np.int32,
+    "anchors": np.int32,
+    "starts": np.int64,
+    "members": np.int32,
+}
+Arrays = dict[str, npt.NDArray[Any]]
+
+
+def _checksum(setting: dict[str, Any], arrays: Arrays) -> str:
+    digest = hashlib.sha256(json.dumps(setting, sort_keys=True).encode())
+    for name in sorted(arrays):
+        digest.update(f"{name} {arrays[name].shape}".encode())
+        digest.update(np.ascontiguousarray(arrays[name].astype(arrays[name].dtype.newbyteorder("<"))).data)
+    return digest.hexdigest()
+
+
+def write_filter(made: BounceFilter, path: str | Path) -> None:
+    """Write a filter; the file appears when it is complete.
+
+    Raises
+    ------
+    OutputError
+        If it cannot be written.
+    """
+    arrays = {name: getattr(made.table, name) for name in _TABLE} | {name: getattr(made.places, name) for name in _PLACES}
+    setting = made.setting.record()
+    about = {"form": _FORM, "version": _VERSION, "setting": setting, "sha256": _checksum(setting, arrays)}
+    with whole_files(path, what="the filter") as (lent,), lent.open("wb") as file:
+        np.savez_compressed(file, about=np.frombuffer(json.dumps(about).encode(), dtype=np.uint8), **arrays)
+
+
+def read_filter(path: str | Path) -> BounceFilter:
+    """Read a filter.
+
+    Raises
+    ------
+    FilterError
+        If the file is missing, truncated or damaged, no filter, or of another version.
+    """
+    path = Path(path)
+    try:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
+            about = json.loads(archive["about"].tobytes())
+            form, version = about["form"], about["version"]
+            if form == _FORM and version == _VERSION:
+                arrays = {name: archive[name] for name in (*_TABLE, *_PLACES)}
+    except OSError as error:
+        raise FilterError(f"{path}: the filter cannot be read ({error.strerror or error}); check the path") from None
+    except (ValueError, KeyError, TypeError, EOFError, AttributeError, NotImplementedError, zipfile.BadZipFile, zlib.error):
+        raise FilterError(f"{path}: no filter that ial has written, or a truncated one; build it again with `ial bounce build`") from None
+    if form != _FORM or version != _VERSION:
+        raise FilterError(f"{path}: a filter of version {version}, and this ial reads {_VERSION}; build it again with `ial bounce build`")
+    try:
+        if any(arrays[name].dtype != kind for name, kind in (_TABLE | _PLACES).items()):
+            raise ValueError("an array of another type")
+        if _checksum(about["setting"], arrays) != about["sha256"]:
+            raise ValueError("another checksum")
+        setting = Setting.of_record(about["setting"])
+    except (ValueError, KeyError, TypeError, ZeroDivisionError, IalError):
+        raise FilterError(f"{path}: the filter is damaged: its checksum differs; build it again with `ial bounce build`") from None
+    table = FilterTable(**{name: arrays[name] for name in _TABLE})
+    return BounceFilter(table, CyclePlaces(**{name: arrays[name] for name in _PLACES}), setting)

@@ -1,0 +1,1 @@
+"""Which angle, or sequence of angles, localizes best."""

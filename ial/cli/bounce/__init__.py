@@ -1,0 +1,1 @@
+"""The commands about bouncing robots: `ial bounce`."""

@@ -1,0 +1,87 @@
+"""Options that several commands of `ial bounce` share, and the environments they are about."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import typer
+
+if TYPE_CHECKING:
+    from ial.maps.polygons.environment import Environment
+
+EnvironmentPaths = Annotated[
+    list[Path], typer.Argument(metavar="ENV", help="Polygons (.json, .wkt, .geojson, .svg) or a map.yaml; several if it may be in any.")
+]
+Angle = Annotated[str, typer.Option("--angle", metavar="DEGREES", help="The bouncing angle, counter-clockwise: 90, 22.5 or 45/2.")]
+Cell = Annotated[
+    str | None, typer.Option("--cell", metavar="METRES", help="The width of a cell; that of the map if it is left out, or 1 for polygons.")
+]
+HeadingCount = Annotated[
+    int | None, typer.Option("--headings", metavar="N", help="How many headings; as few as the angle needs if left out.")
+]
+Radius = Annotated[str, typer.Option("--radius", metavar="METRES", help="The radius of the robot; 0 for a point.")]
+StepLength = Annotated[str | None, typer.Option("--step", metavar="METRES", help="How far a step leads; the width of a cell if left out.")]
+FreeRule = Annotated[Literal["inside", "centre"], typer.Option("--rule", help="What of a cell must be free: all of it, or its centre.")]
+CornerPolicy = Annotated[
+    Literal["segment", "endpoint"], typer.Option("--corner", help="What of a step must be free: all of it, or the cell where it ends.")
+]
+MostStates = Annotated[int, typer.Option("--most-states", min=1, metavar="N", help="Give up at so many states.")]
+
+
+def number(text: str, option: str) -> Fraction:
+    """Return the exact value of an option.
+
+    Raises
+    ------
+    ConfigError
+        If it is no number.
+    """
+    from ial.errors import ConfigError, MapError
+    from ial.maps.polygons.exact_number import exact_number
+
+    try:
+        return exact_number(text, option)
+    except MapError as error:
+        raise ConfigError(str(error)) from None
+
+
+def environments(paths: Sequence[Path]) -> "dict[str, Environment]":
+    """Read environments; each is named after its file.
+
+    Raises
+    ------
+    ConfigError
+        If two have the same name.
+    MapError
+        If one cannot be read.
+    """
+    from ial.errors import ConfigError
+    from ial.maps.polygons.environment import load_environment
+
+    if len({path.stem for path in paths}) < len(paths):
+        raise ConfigError("two environments have the same name; give each file a name of its own, since the filter tells them by it")
+    return {path.stem: load_environment(path) for path in paths}
+
+
+def cell_width(loaded: "dict[str, Environment]", cell: str | None) -> Fraction | None:
+    """Return the width of a cell in metres, None where it is that of the grids the environments come from.
+
+    Raises
+    ------
+    ConfigError
+        If it is not positive.
+    """
+    from ial.errors import ConfigError
+
+    known = None if all(each.cell for each in loaded.values()) else Fraction(1)
+    width = known if cell is None else number(cell, "--cell")
+    if width is not None and width <= 0:
+        raise ConfigError(f"--cell is {cell}; give a width greater than 0, in metres")
+    return width
+
+
+def step_cells(step: str | None, loaded: "dict[str, Environment]", width: Fraction | None) -> Fraction:
+    """Return how far a step leads, in widths of a cell."""
+    one = width or next(each.cell for each in loaded.values() if each.cell)
+    return Fraction(1) if step is None else number(step, "--step") / one

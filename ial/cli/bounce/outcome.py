@@ -1,0 +1,61 @@
+"""What `ial bounce run` says about a stream."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
+from typing import Any
+
+from ial.bouncing.filters.bounce_filter import BounceFilter
+
+
+def outcome(made: BounceFilter, states: Sequence[int]) -> dict[str, Any]:
+    """Return what the states behind the observations of a stream tell, as plain values that JSON can hold; observations count from 1."""
+    table = made.table
+    path = [0, *states]
+    state = path[-1]
+    return {
+        "observations": len(states),
+        "state": state,
+        "colour": int(table.colours[state]),
+        "rejected_at": [at for at, (before, now) in enumerate(pairwise(path), 1) if now == table.trap and before != table.trap],
+        "localized_at": next((at for at, each in enumerate(path) if table.is_localized(each)), None),
+        "localized": table.is_localized(state),
+        "configurations": int(table.uncertainty[state]),
+        "environments": [made.setting.names[number] for number in table.possible(state)],
+        "places": [
+            {
+                "environment": place.environment,
+                "x_m": float(place.x_m),
+                "y_m": float(place.y_m),
+                "headings_deg": [float(each) for each in place.headings_deg],
+            }
+            for place in made.where(state)
+        ],
+    }
+
+
+def lines(record: Mapping[str, Any], most: int) -> Iterator[str]:
+    """Yield the lines to print, with so many places at most."""
+    for at in record["rejected_at"]:
+        yield f"rejected at observation {at}: no place in the environments fits; the robot is elsewhere, was carried, or erred"
+    count, places = record["configurations"], record["places"]
+    if not count:
+        yield f"after {record['observations']} observations: in none of the environments"
+        return
+    known = f"localized (colour {record['colour']})" if record["localized"] else "not localized yet"
+    yield (
+        f"after {record['observations']} observations: {known}, {count} configuration{'s' * (count != 1)} in "
+        f"{', '.join(record['environments'])}"
+    )
+    for place in places[:most]:
+        yield f"  {place['environment']}: x {place['x_m']:g} m, y {place['y_m']:g} m, heading {_heading(place['headings_deg'])}"
+    if len(places) > most:
+        yield f"  and {len(places) - most} more; --json lists all"
+
+
+def _heading(angles: Sequence[float]) -> str:
+    """Return headings in words; several begin behind the widest gap, since they may lie on both sides of 0°."""
+    if len(angles) == 1:
+        return f"{angles[0]:g}°"
+    gaps = [(now - before) % 360.0 for before, now in zip([angles[-1], *angles], angles, strict=False)]
+    first = gaps.index(max(gaps))
+    return f"one of {len(angles)}, {angles[first]:g}° to {angles[first - 1]:g}°"

@@ -1,0 +1,112 @@
+"""`ial bounce show`: pictures of knowledge cycles, of basins, and of the automaton."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import typer
+
+from ial.cli.bounce.options import (
+    Angle,
+    Cell,
+    CornerPolicy,
+    FreeRule,
+    HeadingCount,
+    MostStates,
+    Radius,
+    StepLength,
+    cell_width,
+    environments,
+    number,
+    step_cells,
+)
+from ial.cli.shell.options import Overwrite
+from ial.cli.shell.outputs import check_outputs
+from ial.cli.shell.terminal import say, shown
+
+if TYPE_CHECKING:
+    from ial.bouncing.filters.bounce_filter import BounceFilter
+    from ial.maps.polygons.raster import Raster
+
+
+def show(
+    paths: Annotated[
+        list[Path],
+        typer.Argument(metavar="[FILTER] [ENV]...", help="A filter (.npz), the environments it was built from, or both, the filter first."),
+    ],
+    out: Annotated[Path, typer.Option(metavar="PNG", help="The picture to write.")],
+    what: Annotated[
+        Literal["cycles", "basins", "automaton"],
+        typer.Option(help="The paths of localized robots, where each start leads, or the states of a small filter."),
+    ] = "cycles",
+    angle: Angle = "90",
+    cell: Cell = None,
+    headings: HeadingCount = None,
+    radius: Radius = "0",
+    step: StepLength = None,
+    rule: FreeRule = "inside",
+    corner: CornerPolicy = "segment",
+    most_states: MostStates = 2**24,
+    overwrite: Overwrite = False,
+) -> None:
+    """Draw a filter. A filter file says how it was built, so the options are for environments alone."""
+    from ial.bouncing.cells.headings import Headings
+    from ial.bouncing.filters.building import all_free_cells, build_filter
+    from ial.bouncing.filters.filter_file import read_filter
+    from ial.errors import ConfigError
+
+    check_outputs([out], paths, overwrite)
+    if late := next((path for path in paths[1:] if path.suffix == ".npz"), None):
+        raise ConfigError(f"{late}: a filter comes first, and its environments behind it: {late.name} ENV …")
+    if paths[0].suffix == ".npz":
+        made = read_filter(paths[0])
+        rasters = _walls(made, paths[1:])
+    else:
+        loaded = environments(paths)
+        width = cell_width(loaded, cell)
+        robot = Headings.of_angle(number(angle, "--angle"), headings, step_cells(step, loaded, width))
+        made = build_filter(loaded, robot, width, number(radius, "--radius"), rule, corner, most_states)
+        rasters = all_free_cells(loaded, width, number(radius, "--radius"), rule)
+    if what == "basins" and not rasters:
+        raise ConfigError(f"{paths[0]}: a filter holds no basins; give the environments behind it: {paths[0].name} ENV …")
+    _draw(out, made, rasters, what)
+    say(f"picture in {shown(out)}")
+
+
+def _walls(made: "BounceFilter", paths: list[Path]) -> "dict[str, Raster]":
+    """Return the free cells of the environments a filter was built from; none if no environment is given."""
+    from ial.bouncing.filters.building import all_free_cells
+    from ial.errors import ConfigError
+
+    if not paths:
+        return {}
+    setting, places, loaded = made.setting, made.places, environments(paths)
+    names = ", ".join(setting.names)
+    if sorted(loaded) != sorted(setting.names):
+        raise ConfigError(f"the filter is one of {names}, not of {', '.join(loaded)}; give the environments it was built from")
+    rasters = all_free_cells({name: loaded[name] for name in setting.names}, setting.cell, setting.radius, setting.rule)
+    for index, (name, corner) in enumerate(zip(setting.names, setting.corners, strict=True)):
+        raster, held = rasters[name], places.environment == index
+        rows, columns = places.row[held], places.column[held]
+        fits = (raster.x, raster.y) == corner and bool((rows < raster.free.shape[0]).all() and (columns < raster.free.shape[1]).all())
+        if not fits or not raster.free[rows, columns].all():
+            raise ConfigError(f"{name}: the environment is not the one the filter was built from; build the filter again")
+    return rasters
+
+
+def _draw(out: Path, made: "BounceFilter", rasters: "dict[str, Raster]", what: str) -> None:
+    from ial.bouncing.cells.cell_map import CellMap
+    from ial.results.bouncing.automaton_picture import draw_automaton
+    from ial.results.bouncing.basin_picture import draw_basins
+    from ial.results.bouncing.cycle_picture import draw_cycles
+    from ial.results.bouncing.ground import BounceGround
+
+    setting, places = made.setting, made.places
+    grounds = [BounceGround(name, raster) for name, raster in rasters.items()]
+    if what == "automaton":
+        draw_automaton(out, made.table, ", ".join(setting.names))
+    elif what == "basins":
+        maps = [CellMap(raster, setting.headings, setting.corner, setting.merged) for raster in rasters.values()]
+        draw_basins(out, maps, grounds)
+    else:
+        cells = [(places.row[held], places.column[held]) for held in (places.environment == index for index in range(len(setting.names)))]
+        draw_cycles(out, made, grounds or BounceGround.of_setting(setting, cells))

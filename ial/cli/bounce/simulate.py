@@ -1,0 +1,52 @@
+"""`ial bounce simulate`: what a robot with real geometry observes, and where it was."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ial.cli.bounce.options import number
+from ial.cli.shell.options import Overwrite
+from ial.cli.shell.outputs import check_outputs
+from ial.cli.shell.terminal import say, shown
+
+
+def simulate(
+    environment: Annotated[Path, typer.Argument(metavar="ENV", help="Polygons (.json, .wkt, .geojson, .svg) or a map.yaml.")],
+    out: Annotated[Path, typer.Option(metavar="STREAM", help="The text file of 0 and 1 to write.")],
+    angle: Annotated[str, typer.Option(metavar="DEGREES", help="The bouncing angle, counter-clockwise: 90, 22.5 or 45/2.")] = "90",
+    step: Annotated[str, typer.Option(metavar="METRES", help="How far a step leads.")] = "1",
+    radius: Annotated[str, typer.Option(metavar="METRES", help="The radius of the robot; 0 for a point.")] = "0",
+    seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same run.")] = 0,
+    steps: Annotated[int, typer.Option(min=1, metavar="N", help="How many observations.")] = 200,
+    noise_turn: Annotated[str, typer.Option(metavar="DEGREES", help="Bound of the error of a turn.")] = "0",
+    noise_step: Annotated[str, typer.Option(metavar="PART", help="Bound of the error of a step, as a part of it: 0.02.")] = "0",
+    noise_count: Annotated[int, typer.Option(metavar="N", help="Bound of the error of the number of steps between bumps.")] = 0,
+    start: Annotated[
+        tuple[str, str, str] | None, typer.Option(metavar="X Y DEGREES", help="Where to start; at random if it is left out.")
+    ] = None,
+    truth: Annotated[Path | None, typer.Option(metavar="CSV", help="Where to write the pose behind each observation.")] = None,
+    overwrite: Overwrite = False,
+) -> None:
+    """Drive a bouncing robot through an environment, with real geometry and errors within bounds, and write down what it observes."""
+    from itertools import islice
+
+    from ial.bouncing.motion_bounds import MotionBounds
+    from ial.bouncing.rays.real_robot import RealRobot
+    from ial.bouncing.stream_file import write_stream, write_truth
+    from ial.maps.polygons.environment import load_environment
+
+    check_outputs([out] if truth is None else [out, truth], [environment], overwrite)
+    loaded = load_environment(environment)
+    bounds = MotionBounds(number(noise_turn, "--noise-turn"), number(noise_step, "--noise-step"), noise_count)
+    place = None
+    if start is not None:
+        x, y, heading = (number(text, "--start") for text in start)
+        place = (x, y, heading / 360)
+    robot = RealRobot(loaded, number(angle, "--angle"), number(step, "--step"), number(radius, "--radius"), bounds, seed, place)
+    poses = list(islice(robot.run(), steps))
+    write_stream((pose.observation for pose in poses), out)
+    say(f"{len(poses)} observations, {sum(pose.observation for pose in poses)} of them bumps, in {shown(out)}")
+    if truth is not None:
+        write_truth(poses, truth)
+        say(f"the poses behind them in {shown(truth)}")

@@ -1,0 +1,177 @@
+"""`Streaming`: what `ial stream` was asked to do, and the doing of it. Nothing here imports what only results and recordings need."""
+
+import os
+import signal
+import sys
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType, TracebackType
+from typing import Any, BinaryIO
+
+from ial.cli.lidar.answer_file import AnswerFile
+from ial.cli.shell.terminal import remark
+from ial.datasets.opening import open_recording
+from ial.datasets.recording import Recording
+from ial.datasets.scan_stream import ScanStream
+from ial.errors import OutputError
+from ial.lidar.checkpoint import Checkpoint, fingerprint
+from ial.lidar.configuration.config import LocalizerConfig
+from ial.lidar.latencies import Latencies
+from ial.lidar.localizer import Localizer
+from ial.lidar.run import localize
+from ial.lidar.warming import warm
+from ial.maps.grids.loading import load_map
+from ial.maps.grids.map_metadata import Semantics
+from ial.pose import Pose
+from ial.results.lidar.enclosures import enclosure_line
+
+
+class _EndError(Exception):
+    """The process was asked to end while it waited for input."""
+
+
+class _Ending(AbstractContextManager["_Ending"]):
+    """Ends a loop on SIGTERM or SIGINT: at once while it waits, else after the scan at hand."""
+
+    def __init__(self) -> None:
+        self.wanted = False
+        self._waits = False
+        self._before: dict[int, Any] = {}
+
+    def __enter__(self) -> "_Ending":
+        for number in (signal.SIGTERM, signal.SIGINT):
+            self._before[number] = signal.signal(number, self._asked)
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> bool:
+        for number, handler in self._before.items():
+            signal.signal(number, handler)
+        return kind is _EndError
+
+    def _asked(self, number: int, frame: FrameType | None) -> None:
+        self.wanted = True
+        if self._waits:
+            raise _EndError
+
+    def lines(self, file: BinaryIO) -> Iterator[bytes]:
+        """Yield the lines of a file; waiting for one may be interrupted."""
+        while not self.wanted:
+            self._waits = True
+            line = file.readline()
+            self._waits = False
+            if not line:
+                return
+            yield line
+
+
+@dataclass(frozen=True)
+class Streaming:
+    """One run of the localizer over a stream.
+
+    Parameters
+    ----------
+    recording
+        A recording to read; standard input if there is none.
+    map_path, semantics, map_topic
+        As in `load_map`.
+    config
+        The configuration of the localizer.
+    out
+        The file to write to; standard output if there is none.
+    state
+        The file of the checkpoint, if one is kept.
+    overwrite
+        Whether a run that begins may replace the file to write to.
+    laser_pose
+        As in `open_recording`.
+    """
+
+    recording: Path | None
+    map_path: Path
+    config: LocalizerConfig
+    out: Path | None = None
+    state: Path | None = None
+    overwrite: bool = False
+    laser_pose: Pose | None = None
+    semantics: Semantics = "nav2"
+    map_topic: str | None = None
+
+    def run(self) -> None:
+        """Write one line for each scan until the input ends, or the process is asked to end.
+
+        Raises
+        ------
+        IalError
+            If an input cannot be used or the lines cannot be written.
+        """
+        times = Latencies()
+        statuses: Counter[str] = Counter()
+        vanishing = 0
+        with ExitStack() as stack:
+            ending = stack.enter_context(_Ending())
+            localizer = Localizer(load_map(self.map_path, self.semantics, self.map_topic), config=self.config)
+            checkpoint = None if self.state is None else Checkpoint.load(self.state, localizer)
+            if checkpoint is not None:
+                localizer.resume(checkpoint.poses, same_start=True)
+            out = self._out(checkpoint)
+            warm(self.config)
+            mine = fingerprint(localizer)
+            if checkpoint is not None:
+                remark("note", f"goes on behind scan {checkpoint.mark.index}, as {self.state} says", "cyan")
+            if out is not None:
+                stack.enter_context(out)
+            source = self._source(ending)
+            for step, estimate in localize(source, localizer, after=None if checkpoint is None else checkpoint.mark):
+                line = enclosure_line(step, estimate, timed=False)
+                if out is None:  # the line comes first: after a kill it may come twice, but is never lost
+                    _print(line)
+                if self.state is not None:
+                    Checkpoint(step.mark, localizer.poses, None if out is None else out.before(line), mine).save(self.state)
+                if out is not None:  # the state comes first: after a kill it knows what is missing
+                    out.append(line.encode())
+                times.add(estimate.elapsed_s)
+                statuses[estimate.status] += 1
+                vanishing += estimate.vanishing
+                if ending.wanted:
+                    break
+        _close(source, statuses, vanishing, times)
+
+    def _source(self, ending: _Ending) -> Recording:
+        if self.recording is not None:
+            return open_recording(self.recording, laser_pose=self.laser_pose)
+        return ScanStream(ending.lines(sys.stdin.buffer), "standard input", self.laser_pose)
+
+    def _out(self, checkpoint: Checkpoint | None) -> AnswerFile | None:
+        """Return the file to write to, which is the one that the checkpoint belongs to; None for standard output."""
+        known = None if checkpoint is None else checkpoint.output
+        if checkpoint is not None and (known is None) != (self.out is None):
+            belongs = "standard output" if known is None else known.path
+            raise OutputError(
+                f"{self.state}: this state belongs to a run that wrote to {belongs}; go on there, or begin anew with another --state"
+            )
+        return None if self.out is None else AnswerFile(self.out, known, self.overwrite)
+
+
+def _print(line: str) -> None:
+    try:
+        sys.stdout.buffer.write(line.encode())
+        sys.stdout.buffer.flush()
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # what closes at exit shall not fail again
+        raise OutputError("nobody reads the lines any more; the state, if one is kept, is that before this line") from None
+    except OSError as error:
+        raise OutputError(f"standard output: cannot be written ({error.strerror or error}); is the disk full?") from None
+
+
+def _close(source: Recording, statuses: Counter[str], vanishing: int, times: Latencies) -> None:
+    """Say on stderr what came in, and how long it took."""
+    for counts, kind in ((source.skipped, "skipped"), (source.repaired, "repaired")):
+        for reason, count in counts.items():
+            remark(kind, f"{count} × {reason}", "yellow")
+    scans = sum(statuses.values())
+    words = ", ".join(f"{count} {status}" for status, count in statuses.most_common())
+    words += f"; {vanishing} of them vanishing" if vanishing else ""
+    remark("note", f"{scans} scans: {words}; {times}" if scans else "no scan came", "cyan")

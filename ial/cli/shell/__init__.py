@@ -1,0 +1,1 @@
+"""What all commands share: options, files that are written, what people see, and the exit status."""

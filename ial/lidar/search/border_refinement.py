@@ -1,0 +1,231 @@
+"""How far an answer really reaches: its outer cells are cut back to the pieces of them that may hold a consistent pose.
+
+A search ends with cells of one size. Where few of them are left, their outer faces, those without a neighbour, can be found more finely:
+the cell is halved along every axis, again and again, and each outer face is moved to the outermost piece that may hold a consistent pose.
+A cell without such a piece is dropped. Faces between two cells stay where they are, so that what belongs together stays connected.
+"""
+
+import numpy as np
+import numpy.typing as npt
+
+from ial.contractors.boxes import Boxes
+from ial.contractors.groups import group_rows
+from ial.contractors.kernels import kernel
+from ial.contractors.paving.clusters import Clusters, cluster
+from ial.contractors.threads import run
+from ial.lidar.evidence.beams import Beams
+from ial.lidar.evidence.end_points import relative_bounds
+from ial.lidar.margins import NEAR
+from ial.lidar.search.lattice import Lattice
+from ial.lidar.search.map_tables import Sheets
+from ial.lidar.search.outer_faces import outer_faces
+from ial.lidar.search.rectangle_indices import OFFSET
+from ial.lidar.search.scan_contractor import fits
+from ial.maps.grids.cell_index import BORDER, meets
+
+
+@kernel
+def _interval(lower, upper, depth, number):  # type: ignore[no-untyped-def]
+    """Return one of the 2**depth pieces of an interval, which is halved again and again."""
+    for level in range(depth):
+        middle = lower + 0.5 * (upper - lower)
+        if (number >> (depth - 1 - level)) & 1:
+            lower = middle
+        else:
+            upper = middle
+    return lower, upper
+
+
+@kernel
+def _reach(cell, outer, depth, evidence, q, grid, headings, stack, reached):  # type: ignore[no-untyped-def]
+    """Write how far the pieces of a cell that may hold a consistent pose reach; return whether there are any.
+
+    Pieces are looked at from the outer faces inward, and none that would not reach farther than those found before.
+
+    Parameters
+    ----------
+    cell
+        Lower and upper bounds, float64 of shape (2, 3).
+    outer
+        Which faces may be moved: lower and upper along each axis, bool of shape (2, 3).
+    headings
+        For each node of the tree of halves of the cell's headings: whether the relative bounds of the beams are known, and these.
+    stack
+        Working space.
+    reached
+        Where to write the bounds. Those at other faces are those of the cell.
+    """
+    ends, directions, errors, map_error = evidence
+    resolution, flat, stride, row_limit, column_limit, origin, domain = grid
+    known, bounds, failing = headings
+    first = 0
+    for axis in range(3):
+        reached[0, axis] = np.inf if outer[0, axis] else cell[0, axis]
+        reached[1, axis] = -np.inf if outer[1, axis] else cell[1, axis]
+        first |= (outer[1, axis] and not outer[0, axis]) << axis  # the half along each axis that lies at an outer face
+    found = False
+    stack[0, :] = 0
+    height = 1
+    while height:
+        height -= 1
+        level, nx, ny, nt = stack[height]
+        xl, xu = _interval(cell[0, 0], cell[1, 0], level, nx)
+        yl, yu = _interval(cell[0, 1], cell[1, 1], level, ny)
+        tl, tu = _interval(cell[0, 2], cell[1, 2], level, nt)
+        if level:
+            if (
+                reached[0, 0] <= xl
+                and xu <= reached[1, 0]
+                and reached[0, 1] <= yl
+                and yu <= reached[1, 1]
+                and reached[0, 2] <= tl
+                and tu <= reached[1, 2]
+            ):
+                continue
+            if not meets(domain[0], domain[1], domain[2], xl, xu, yl, yu):
+                continue
+            node = (1 << level) + nt
+            if not known[node]:
+                relative_bounds(tl, tu, ends, directions, errors, map_error, resolution, bounds[node])
+                known[node] = True
+            left, right = xl / resolution - origin[1], xu / resolution - origin[1]
+            below, above = yl / resolution - origin[0], yu / resolution - origin[0]
+            near = min(left, below) >= -NEAR and max(right, above) <= NEAR
+            left, below = left + OFFSET, below + OFFSET
+            right, above = right + (OFFSET + 1.0), above + (OFFSET + 1.0)
+            if near and not fits(left, below, right, above, bounds[node], q, flat, stride, row_limit, column_limit, failing):
+                continue
+        if level == depth:
+            found = True
+            for axis in range(3):
+                low, high = (xl, xu) if axis == 0 else (yl, yu) if axis == 1 else (tl, tu)
+                if outer[0, axis]:
+                    reached[0, axis] = min(reached[0, axis], low)
+                if outer[1, axis]:
+                    reached[1, axis] = max(reached[1, axis], high)
+            continue
+        for number in range(8):  # the last one put on the stack is the next
+            child = (7 - number) ^ first
+            stack[height, 0] = level + 1
+            stack[height, 1] = 2 * nx + (child & 1)
+            stack[height, 2] = 2 * ny + ((child >> 1) & 1)
+            stack[height, 3] = 2 * nt + (child >> 2)
+            height += 1
+    return found
+
+
+@kernel
+def _trim(start, stop, layers, cells, outer, wanted, depth, evidence, q, tables, headings, cut, kept):  # type: ignore[no-untyped-def]
+    """Cut the wanted cells of layers start … stop - 1, and write which of them hold a piece.
+
+    Parameters
+    ----------
+    layers
+        Which rows belong to each layer: order[edges[i]] … order[edges[i + 1] - 1].
+    headings
+        For each layer what `_reach` knows of its headings, from one call to the next.
+    """
+    resolution, bordered, origin, domain = tables
+    row_limit = np.int32(bordered.shape[0] - 1)
+    column_limit = np.int32(bordered.shape[1] - 1 - 2 * BORDER)
+    grid = (resolution, bordered.reshape(-1)[BORDER:], np.uint64(bordered.shape[1]), row_limit, column_limit, origin, domain)
+    order, edges = layers
+    known, bounds = headings
+    failing = np.arange(len(evidence[0]))
+    stack = np.empty((8 * (depth + 1), 4), dtype=np.int64)
+    cell, reached = np.empty((2, 3)), np.empty((2, 3))
+    for layer in range(start, stop):
+        for at in range(edges[layer], edges[layer + 1]):
+            row = order[at]
+            if wanted[row]:
+                cell[0, :], cell[1, :] = cells[0][row], cells[1][row]
+                of_layer = (known[layer], bounds[layer], failing)
+                kept[row] = _reach(cell, outer[row], depth, evidence, q, grid, of_layer, stack, reached)
+                cut[0][row], cut[1][row] = reached[0], reached[1]
+
+
+def trim(
+    cells: Boxes, lattice: Lattice, sheets: Sheets, beams: Beams, map_error_m: float, depth: int
+) -> tuple[Boxes, npt.NDArray[np.bool_]]:
+    """Return cells whose outer faces are moved to the outermost pieces that may hold a consistent pose, and which of them are left.
+
+    A cell without such a piece is dropped, and the faces of its neighbours behind it are moved, too.
+
+    Parameters
+    ----------
+    cells
+        Different cells of the finest level of the lattice.
+    lattice
+        The lattice.
+    sheets
+        The tables of the map.
+    beams
+        The evidence of the scan, and how many of its beams may be bad.
+    map_error_m
+        How far the map may be wrong.
+    depth
+        How often cells are halved along each axis.
+    """
+    lower, upper, kept = cells.lower.copy(), cells.upper.copy(), np.ones(len(cells), dtype=np.bool_)
+    order = group_rows(lower[:, 2], upper[:, 2])
+    edges = np.flatnonzero(np.concatenate([[True], np.diff(lower[order, 2]) != 0.0, [True]]))
+    evidence = (beams.ends, beams.directions, beams.errors, map_error_m)
+    headings = (np.zeros((len(edges) - 1, 2 << depth), dtype=np.bool_), np.empty((len(edges) - 1, 2 << depth, len(beams.ends), 4)))
+    places = [(key, rows) for key, rows, _ in sheets.parts(cells)]
+    outer = outer_faces(cells, lattice)
+    uncovered = np.asarray(outer.any(axis=(1, 2)))
+    while uncovered.any():
+        before = np.count_nonzero(kept)
+        for key, rows in places:
+            wanted = np.zeros(len(cells), dtype=np.bool_)
+            wanted[rows] = uncovered[rows]
+            occupied, domain = sheets[key].occupied, sheets[key].domain
+            tables = (occupied.resolution, occupied.bordered, occupied.origin, (domain.table, domain.origin, domain.inverse_resolution))
+            bounds = (cells.lower, cells.upper), outer, wanted, depth, evidence, beams.outliers, tables, headings, (lower, upper), kept
+            run(_trim, len(edges) - 1, (order, edges), *bounds, minimum=4)
+        if np.count_nonzero(kept) in (0, before):
+            break
+        faces = outer.copy()
+        faces[kept] = outer_faces(cells[kept], lattice)
+        uncovered = (faces != outer).any(axis=(1, 2))
+        outer = faces
+    return Boxes(lower, upper), kept
+
+
+def mend(cells: Boxes, lattice: Lattice, trimmed: Boxes, kept: npt.NDArray[np.bool_], parts: Clusters) -> npt.NDArray[np.bool_]:
+    """Give hypotheses that `trim` has torn apart their cells back, as far as these lie in the hull of what was found in them.
+
+    Parameters
+    ----------
+    cells, lattice
+        As they were given to `trim`.
+    trimmed, kept
+        What it has returned; the boxes of hypotheses that have fallen apart are replaced.
+    parts
+        The clusters of the kept boxes.
+
+    Returns
+    -------
+    kept
+        Which boxes are left then; the very same mask where nothing is torn.
+    """
+    if len(parts) < 2:
+        return kept
+    whole = cluster(cells, circular=(2,))
+    labels = whole.labels
+    torn = np.flatnonzero(np.bincount(np.unique(np.stack([labels[kept], parts.labels]), axis=1)[0]) > 1)
+    if not len(torn):
+        return kept
+    lower, upper, kept = trimmed.lower, trimmed.upper, kept.copy()
+    turns = (lattice.layer(cells) - lattice.layer(whole.hulls)[labels]) % lattice.layers
+    for label in torn:
+        found = kept & (labels == label)
+        low, high = lower[found].min(axis=0), upper[found].max(axis=0)
+        first, last = turns[found].min(), turns[found].max()
+        low[2], high[2] = lower[found & (turns == first), 2].min(), upper[found & (turns == last), 2].max()
+        rows = np.flatnonzero((labels == label) & (first <= turns) & (turns <= last))
+        lowest, highest = np.tile(low, (len(rows), 1)), np.tile(high, (len(rows), 1))
+        lowest[turns[rows] != first, 2], highest[turns[rows] != last, 2] = -np.inf, np.inf
+        lower[rows], upper[rows] = np.maximum(cells.lower[rows], lowest), np.minimum(cells.upper[rows], highest)
+        kept[rows] = (lower[rows] < upper[rows]).all(axis=1)
+    return kept

@@ -1,0 +1,164 @@
+"""The scan as a constraint on the pose: at most q of the used beams may fail to end at an occupied cell."""
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ial.contractors.angles import wrapped
+from ial.contractors.boxes import Boxes
+from ial.contractors.groups import group_rows
+from ial.contractors.kernels import kernel
+from ial.contractors.threads import run
+from ial.lidar.evidence.beams import Beams
+from ial.lidar.evidence.end_points import relative_bounds
+from ial.lidar.margins import NEAR
+from ial.lidar.search.narrowing import narrow
+from ial.lidar.search.rectangle_indices import OFFSET, corners
+from ial.maps.grids.cell_index import BORDER, CellIndex
+
+
+@kernel
+def fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit, order):  # type: ignore[no-untyped-def]
+    """Return whether at most q beams certainly miss every occupied cell from all of a box, whose bounds are given in cells.
+
+    A beam fails if the rectangle of its possible end points meets no occupied cell: four look-ups in the summed-area table. Beams are tried
+    in an order, in which those that fail move to the front: from the next box the same will mostly fail.
+    """
+    beams = len(bounds)
+    failed = 0
+    for at in range(beams):
+        i = order[at]
+        left, below, right, above = corners(bounds, i, xl, yl, xu, yu, column_limit, row_limit)
+        low = np.uint64(below) * stride
+        high = np.uint64(above) * stride
+        near = np.uint64(left)
+        far = np.uint64(right)
+        if flat[high + far] - flat[low + far] - flat[high + near] + flat[low + near] == 0:
+            order[at], order[failed] = order[failed], i
+            failed += 1
+            if failed > q:
+                return False
+        elif at + 1 - failed >= beams - q:
+            return True
+    return True
+
+
+@kernel
+def _test(start, stop, order, lower, upper, ends, directions, errors, q, map_error, resolution, bordered, origin, keep):  # type: ignore[no-untyped-def]
+    flat = bordered.reshape(-1)[BORDER:]
+    stride = np.uint64(bordered.shape[1])
+    row_limit = np.int32(bordered.shape[0] - 1)
+    column_limit = np.int32(bordered.shape[1] - 1 - 2 * BORDER)
+    bounds = np.empty((len(ends), 4))
+    beams = np.arange(len(ends))
+    theta_lower = np.nan
+    theta_upper = np.nan
+    for at in range(start, stop):
+        row = order[at]
+        if lower[row, 0] > upper[row, 0] or lower[row, 1] > upper[row, 1] or lower[row, 2] > upper[row, 2]:
+            keep[row] = False
+            continue
+        if lower[row, 2] != theta_lower or upper[row, 2] != theta_upper:
+            theta_lower = lower[row, 2]
+            theta_upper = upper[row, 2]
+            relative_bounds(theta_lower, theta_upper, ends, directions, errors, map_error, resolution, bounds)
+        xl, xu = lower[row, 0] / resolution - origin[1], upper[row, 0] / resolution - origin[1]
+        yl, yu = lower[row, 1] / resolution - origin[0], upper[row, 1] / resolution - origin[0]
+        near = min(xl, yl) >= -NEAR and max(xu, yu) <= NEAR  # elsewhere the indices would not be right, so the box is kept
+        xl, yl = xl + OFFSET, yl + OFFSET
+        xu, yu = xu + (OFFSET + 1.0), yu + (OFFSET + 1.0)
+        keep[row] = not near or fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit, beams)
+
+
+@kernel
+def _narrow(start, stop, order, lower, upper, ends, directions, errors, q, map_error, resolution, table, origin):  # type: ignore[no-untyped-def]
+    bounds = np.empty((len(ends), 4))
+    low = np.empty((2, len(ends)))
+    high = np.empty((2, len(ends)))
+    for at in range(start, stop):
+        row = order[at]
+        relative_bounds(lower[row, 2], upper[row, 2], ends, directions, errors, map_error, resolution, bounds)
+        xl, xu = lower[row, 0] / resolution - origin[1], upper[row, 0] / resolution - origin[1]
+        yl, yu = lower[row, 1] / resolution - origin[0], upper[row, 1] / resolution - origin[0]
+        if min(xl, yl) < -NEAR or max(xu, yu) > NEAR:
+            continue
+        x0, y0, x1, y1 = narrow(xl, yl, xu, yu, bounds, q, table, low, high)
+        # The margin in `bounds` covers the rounding of a bound that has moved; one that has not keeps its bits.
+        if x0 > xl:
+            lower[row, 0] = max(lower[row, 0], (x0 + origin[1]) * resolution)
+        if y0 > yl:
+            lower[row, 1] = max(lower[row, 1], (y0 + origin[0]) * resolution)
+        if x1 < xu:
+            upper[row, 0] = min(upper[row, 0], (x1 + origin[1]) * resolution)
+        if y1 < yu:
+            upper[row, 1] = min(upper[row, 1], (y1 + origin[0]) * resolution)
+
+
+class ScanContractor:
+    """Poses (x, y, θ) of the robot, in the grid's frame, from which at most q of the used beams are bad.
+
+    A beam is good at a pose if some point of its error region lies within `map_error_m` of a closed occupied cell. Beams without return are
+    among those that may be bad, and are taken to be good: with as many bad ones allowed as there are hits, a box is returned as it is.
+
+    Parameters
+    ----------
+    beams
+        The evidence of the scan.
+    occupied
+        The occupied cells.
+    map_error_m
+        How far the map may be wrong.
+
+    Source: Guyonneau et al. 2014, section 3.2, eq. 6, as a test with relaxed intersection over all beams.
+    """
+
+    dimension = 3
+
+    def __init__(self, beams: Beams, occupied: CellIndex, map_error_m: float) -> None:
+        self.beams = beams
+        self.occupied = occupied
+        self.map_error_m = map_error_m
+        self._most = min(beams.outliers, len(beams.ends))  # of the beams that end somewhere; those without return say nothing here
+
+    def fits(self, boxes: Boxes) -> npt.NDArray[np.bool_]:
+        """Return in which boxes a consistent pose cannot be excluded, shape (n,); headings may have any turn.
+
+        Raises
+        ------
+        ValueError
+            If a bound is NaN.
+        """
+        return self._fit(wrapped(boxes, 2))
+
+    def contract(self, boxes: Boxes) -> Boxes:
+        """Return the boxes, positions narrowed by relaxed intersection over the beams; those without a consistent pose are emptied.
+
+        Headings may have any turn, and keep theirs.
+
+        Raises
+        ------
+        ValueError
+            If a bound is NaN.
+        """
+        turned = wrapped(boxes, 2)
+        keep = self._fit(turned)
+        lower, upper = turned.lower.copy(), turned.upper.copy()
+        if self._most < len(self.beams.ends):
+            order = np.flatnonzero(keep)
+            cells = (self.occupied.resolution, self.occupied.table, self.occupied.origin)
+            run(_narrow, len(order), order, lower, upper, *self._evidence, *cells, minimum=8)
+        lower[:, 2], upper[:, 2] = boxes.lower[:, 2], boxes.upper[:, 2]
+        return Boxes(lower, upper).where(keep & (lower <= upper).all(axis=1))
+
+    def _fit(self, boxes: Boxes) -> npt.NDArray[np.bool_]:
+        keep = np.empty(len(boxes), dtype=np.bool_)
+        order = group_rows(boxes.lower[:, 2], boxes.upper[:, 2])
+        cells = (self.occupied.resolution, self.occupied.bordered, self.occupied.origin)
+        run(_test, len(boxes), order, boxes.lower, boxes.upper, *self._evidence, *cells, keep)
+        return keep
+
+    @property
+    def _evidence(self) -> tuple[Any, ...]:
+        beams = self.beams
+        return beams.ends, beams.directions, beams.errors, self._most, self.map_error_m

@@ -1,0 +1,123 @@
+import random
+from fractions import Fraction
+from itertools import islice
+
+import numpy as np
+import pytest
+
+from ial.bouncing.automata.set_automaton import determinize_sets
+from ial.bouncing.cells.headings import Headings
+from ial.bouncing.cells.model import BouncingModel
+from ial.bouncing.cells.noisy_map import NoisyMap
+from ial.bouncing.cells.noisy_model import NoisyModel
+from ial.bouncing.cells.set_graph import SetGraph, rows_of
+from ial.bouncing.motion_bounds import MotionBounds
+from ial.bouncing.rays.real_robot import RealPose, RealRobot
+from ial.errors import FilterError
+from ial.membership import Rejection, SetMembershipFilter
+from tests.bouncing.rays.test_real_robot import PILLAR, ROOM
+from tests.bouncing.truth import random_environment
+
+NONE = MotionBounds()
+SOME = MotionBounds(Fraction(5), Fraction(1, 20), 1)
+
+
+def standing(made: NoisyMap, pose: RealPose) -> list[int]:
+    """The vertices of a simulated robot: walls at thirds are rounded to 2^-112 m there, so it may stand that much behind one."""
+    some = (-Fraction(1, 10**30), Fraction(0), Fraction(1, 10**30))
+    return [each for dx in some for dy in some for each in made.vertices(pose.x_m + dx, pose.y_m + dy, pose.turn)]
+
+
+def noisy(bounds: MotionBounds = NONE, step: Fraction = Fraction(1), cell: Fraction = Fraction(1)) -> NoisyMap:
+    return NoisyMap(PILLAR, cell, Headings.of_angle(Fraction(90), 8, step), bounds)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_robot_with_real_geometry_is_never_lost(seed: int) -> None:
+    chooser = random.Random(seed)
+    environment = random_environment(seed)
+    cell, count = chooser.choice([Fraction(1, 2), Fraction(1, 3), Fraction(7, 10)]), chooser.choice([8, 12, 36])
+    headings = Headings(count, chooser.randrange(1, count), chooser.choice([Fraction(1), Fraction(3, 2), Fraction(3)]))
+    bounds = [MotionBounds(), SOME, MotionBounds(Fraction(15), count=2), MotionBounds(step=Fraction(1, 4))][seed % 4]
+    made = NoisyMap(environment, cell, headings, bounds)
+    robot = RealRobot(environment, headings.bounce_deg, headings.step * cell, bounds=bounds, seed=seed)
+    running = SetMembershipFilter(NoisyModel(made.graph), NoisyModel(made.graph).restart)
+    for pose in islice(robot.run(), 60):
+        assert running.update(None, pose.observation) is None
+        if bounds.count == 0 or pose.observation:  # with a wrong clock, the robot is where the set says at bumps
+            assert set(standing(made, pose)) & set(running.states.tolist())
+
+
+def test_a_broken_bound_is_noticed() -> None:
+    made = NoisyMap(PILLAR, Fraction(1, 4), Headings.of_angle(Fraction(90), 36, Fraction(4)))
+    lost = 0
+    for seed in range(30):
+        robot = RealRobot(PILLAR, Fraction(90), Fraction(1), bounds=MotionBounds(Fraction(60)), seed=seed)
+        model = NoisyModel(made.graph)
+        states = model.universe()
+        for pose in islice(robot.run(), 80):
+            states = model.step(states, None, pose.observation)
+        lost += not set(made.vertices(pose.x_m, pose.y_m, pose.turn)) & set(states.tolist())
+    assert lost > 0
+
+
+@pytest.mark.parametrize("step", [Fraction(1), Fraction(2), Fraction(7, 2)])
+def test_without_errors_it_contains_the_answers_of_the_exact_map(step: Fraction) -> None:
+    made = noisy(step=step)
+    exact, model = BouncingModel(made.exact.graph), NoisyModel(made.graph)
+    chooser = random.Random(1)
+    for _ in range(20):
+        vertex = chooser.randrange(len(made.exact.graph))
+        known, states = exact.universe(), model.universe()
+        for _ in range(30):
+            arc = int(made.exact.graph.arcs[vertex])
+            vertex = arc if arc >= 0 else ~arc
+            known, states = exact.step(known, None, int(arc < 0)), model.step(states, None, int(arc < 0))
+            assert set(made.vertices_of_exact(known).tolist()) <= set(states.tolist())
+
+
+@pytest.mark.parametrize("larger", [MotionBounds(Fraction(50)), MotionBounds(step=Fraction(1, 5)), MotionBounds(count=1), SOME])
+def test_larger_bounds_give_larger_sets(larger: MotionBounds) -> None:
+    less, more = noisy().graph, noisy(larger).graph
+    grown = 0
+    for vertex in range(len(less)):
+        for label in (0, 1):
+            one, other = set(less.successors(vertex, label).tolist()), set(more.successors(vertex, label).tolist())
+            assert one <= other
+            grown += len(other) > len(one)
+    assert grown > 0
+
+
+def test_the_automaton_is_that_of_the_filter_and_its_size_is_limited() -> None:
+    made = NoisyMap(ROOM, Fraction(1, 2), Headings.of_angle(Fraction(90), 12, Fraction(3)))
+    automaton, model = determinize_sets(made.graph), NoisyModel(made.graph)
+    chooser = random.Random(2)
+    for _ in range(20):
+        state, states = 0, model.universe()
+        for _ in range(20):
+            label = chooser.randrange(2)
+            state, states = int(automaton.successors[state, label]), model.step(states, None, label)
+            assert (state < 0) == model.empty(states)
+            if state < 0:
+                break
+            assert automaton.sizes[state] == len(states)
+    with pytest.raises(FilterError, match="more than 3 states"):
+        determinize_sets(made.graph, 3)
+
+
+def test_an_impossible_stream_is_a_rejection() -> None:
+    model = NoisyModel(noisy(step=Fraction(3), cell=Fraction(1, 2)).graph)
+    robot = SetMembershipFilter(model, model.restart)
+    found = [robot.update(None, 0) for _ in range(40)]
+    first = next(each for each in found if each is not None)
+    assert isinstance(first, Rejection)
+    assert first.step >= 6, "the diagonal is 10 m, a step 1.5 m"
+    assert len(model.predict(model.contract(model.universe(), 0), None)) > 0
+
+
+def test_rows_are_sorted_and_hold_each_arc_once() -> None:
+    starts, ends = rows_of(np.array([2, 0, 2, 2]), np.array([1, 2, 1, 0]), 3)
+    assert starts.tolist() == [0, 1, 1, 3]
+    assert ends.tolist() == [2, 0, 1]
+    with pytest.raises(FilterError, match="leads to vertex 2"):
+        SetGraph((starts[:3], starts[:3]), (ends, ends), 2)

@@ -1,0 +1,91 @@
+import io
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from ial.bouncing.filters.bounce_filter import BounceFilter
+from ial.bouncing.filters.filter_file import read_filter, write_filter
+from ial.errors import FilterError, OutputError
+
+
+@pytest.fixture
+def path(made: BounceFilter, tmp_path: Path) -> Path:
+    write_filter(made, tmp_path / "a.npz")
+    return tmp_path / "a.npz"
+
+
+def test_a_filter_comes_back_as_it_was(made: BounceFilter, path: Path) -> None:
+    again = read_filter(path)
+    assert again.setting == made.setting
+    for part in ("table", "places"):
+        for name, array in vars(getattr(made, part)).items():
+            assert np.array_equal(array, getattr(getattr(again, part), name)), name
+    state = int(np.flatnonzero(made.table.colours == 2)[-1])
+    assert again.where(state) == made.where(state)
+    assert list(path.parent.iterdir()) == [path]
+
+
+def test_a_truncated_file_is_refused(path: Path) -> None:
+    whole = path.read_bytes()
+    for size in (0, 10, len(whole) // 3, len(whole) - 200, len(whole) - 1):
+        path.write_bytes(whole[:size])
+        with pytest.raises(FilterError, match=r"a\.npz: .*(truncated|damaged)"):
+            read_filter(path)
+
+
+def test_every_damaged_byte_is_noticed(path: Path, made: BounceFilter) -> None:
+    whole = bytearray(path.read_bytes())
+    for at in range(0, len(whole), 37):
+        path.write_bytes(whole[:at] + bytes([whole[at] ^ 0x10]) + whole[at + 1 :])
+        try:
+            again = read_filter(path)  # bytes of the archive's own bookkeeping may differ, as long as the content does not
+        except FilterError:
+            continue
+        assert np.array_equal(again.table.successors, made.table.successors)
+        assert again.setting == made.setting
+
+
+def rewritten(path: Path, **changes: object) -> None:
+    with np.load(path) as archive:
+        arrays = dict(archive)
+    about = json.loads(arrays.pop("about").tobytes())
+    for name, value in changes.items():
+        if name in arrays:
+            arrays[name] = value  # type: ignore[assignment]
+        else:
+            about[name] = value
+    content = io.BytesIO()
+    np.savez(content, about=np.frombuffer(json.dumps(about).encode(), dtype=np.uint8), **arrays)
+    path.write_bytes(content.getvalue())
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"version": 2}, "a filter of version 2, and this ial reads 1; build it again"),
+        ({"form": "something else"}, "a filter of version 1, and"),
+        ({"colours": np.zeros(3, dtype=np.int32)}, "damaged: its checksum differs"),
+        ({"colours": np.zeros(3)}, "damaged"),
+        ({"setting": {}}, "damaged"),
+        ({"sha256": ""}, "damaged"),
+    ],
+)
+def test_a_changed_file_is_refused(path: Path, changes: dict[str, object], message: str) -> None:
+    rewritten(path, **changes)
+    with pytest.raises(FilterError, match=message):
+        read_filter(path)
+
+
+def test_what_is_no_filter_is_refused(tmp_path: Path, made: BounceFilter) -> None:
+    with pytest.raises(FilterError, match="cannot be read"):
+        read_filter(tmp_path / "nowhere.npz")
+    np.savez(tmp_path / "b.npz", x=np.zeros(3))
+    with pytest.raises(FilterError, match="no filter that ial has written"):
+        read_filter(tmp_path / "b.npz")
+    np.save(tmp_path / "c.npy", np.zeros(3))
+    with pytest.raises(FilterError, match="no filter that ial has written"):
+        read_filter(tmp_path / "c.npy")
+    with pytest.raises(OutputError, match="cannot be written"):
+        write_filter(made, tmp_path / "nowhere" / "a.npz")
