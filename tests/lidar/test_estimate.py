@@ -9,7 +9,8 @@ from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.angle import contains_angle
 from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.lidar.configuration.config import LocalizedSize
-from ial.lidar.estimate import Hypothesis, find_hypotheses, judge, radius
+from ial.lidar.estimate import judge, radius
+from ial.lidar.hypotheses import Hypothesis, find_hypotheses
 from ial.lidar.pose_set import PoseSet, unite
 from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.pose import Pose, wrap
