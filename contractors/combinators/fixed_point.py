@@ -3,8 +3,9 @@
 from typing import overload
 
 from ial.contractors.boxes import Boxes
+from ial.contractors.checked_contractor import CheckedContractor
 from ial.contractors.combinators.rows import occupied
-from ial.contractors.contractor import Combinator, Contractor, ContractorLike, complement
+from ial.contractors.contractor import Contractor, ContractorLike, complement
 from ial.contractors.kernels import kernel
 from ial.contractors.separator import Separator
 from ial.contractors.space import common_space
@@ -30,7 +31,7 @@ def _shrunk(before_lower, before_upper, lower, upper, ratio):  # type: ignore[no
     return found[:count]
 
 
-class FixedPoint(Combinator):
+class FixedPoint(CheckedContractor):
     """A contractor, repeated on each row while some side of it shrinks by more than `ratio`. See `fixpoint`.
 
     Parameters

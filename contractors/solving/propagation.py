@@ -4,15 +4,16 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes
+from ial.contractors.checked_contractor import CheckedContractor
 from ial.contractors.combinators.combination import Intersection, Union
 from ial.contractors.combinators.family import Family, Member, members_of
 from ial.contractors.combinators.relaxation import Relaxed
-from ial.contractors.contractor import Combinator, common_dimension
+from ial.contractors.contractor import common_dimension
 from ial.contractors.expressions.constraint import Constraint, ConstraintFamily
 from ial.contractors.expressions.mean_value import MeanValue, repeats
 
 
-class Propagation(Combinator):
+class Propagation(CheckedContractor):
     """All of several constraints, applied in turn until none of them narrows a side by much.
 
     Every box has its own queue. At first all constraints stand in it. Rounds go through the constraints in the order given and apply those
