@@ -14,7 +14,7 @@ from ial.lidar.evidence.beams import Beams, scan_beams
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet, unite
 from ial.lidar.pose_sets import PoseSets
-from ial.lidar.search.outlier_budget import allowing
+from ial.lidar.search.outlier_budget import within_budget
 from ial.lidar.vanishing import is_vanishing
 from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.membership import Model, SetMembershipFilter
@@ -47,7 +47,7 @@ class AtlasModel(Model[PoseSets, Motion | None, Beams]):
         """Return the poses that a scan allows, with as many bad beams in every map as the best of them needs."""
         if not reading.informative:
             return states
-        return allowing(reading, states, lambda most: self._contracted(states, most))
+        return within_budget(reading, states, lambda most: self._contracted(states, most))
 
     def _contracted(self, states: PoseSets, reading: Beams) -> PoseSets:
         return PoseSets({name: model.contract(states.by_map[name], reading) for name, model in self.models.items()})
@@ -179,7 +179,7 @@ class Atlas:
             name: find_hypotheses(poses, self.grids[name], counted=counted, rejected=lost) for name, poses in known.by_map.items()
         }
         every = tuple(each for found in hypotheses.values() for each in found)
-        status = judge(every, self.config.localized_size, rejected=lost, found=not known.carried)
+        status = judge(every, self.config.localized_size, rejected=lost, found=not known.unconfirmed)
         place = next(name for name, each in hypotheses.items() if each) if status == "localized" else None
         return Whereabouts(
             stamp_ns=scan.stamp_ns,

@@ -139,7 +139,7 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True
     found = []
     for label, (start, stop) in enumerate(itertools.pairwise(edges)):
         rows = order[start:stop]
-        sure = rows[~poses.carried[rows]]
+        sure = rows[~poses.unconfirmed[rows]]
         hull = Boxes(in_map.lower[rows], in_map.upper[rows]).hull()
         found.append(
             Hypothesis(

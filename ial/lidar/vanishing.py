@@ -14,7 +14,7 @@ def is_vanishing(left: Iterable[PoseSet], beams: Beams, map_error_m: float) -> b
     Parameters
     ----------
     left
-        What a scan has left in each map, cut back as far as `LidarModel.trim` can; perhaps nothing.
+        What a scan has left in each map, cut back as far as `LidarModel.refine` can; perhaps nothing.
     beams
         The evidence of the scan, and how many of its beams might be bad.
     map_error_m
@@ -26,7 +26,7 @@ def is_vanishing(left: Iterable[PoseSet], beams: Beams, map_error_m: float) -> b
         False where the scan excludes nothing, where it has rejected the prediction, and where a limit has made the answer coarse.
     """
     sets = list(left)
-    if not beams.informative or any(each.limited or each.carried.any() for each in sets):
+    if not beams.informative or any(each.limited or each.unconfirmed.any() for each in sets):
         return False
     return sum(each.boxes.volume() for each in sets) < leeway(beams, map_error_m)
 

@@ -87,7 +87,7 @@ def test_the_last_point_of_a_cell_of_the_lattice_is_not_lost(resolution: float, 
         reading = up(row.edge - Fraction(x))
         y = 5.0 * lattice.part_m
         middle = Boxes.of([(x - 0.6 * lattice.position_m, x - 0.4 * lattice.position_m), (y, y), (-half, -half)])
-        words, least = count_cells(lattice.tiles(middle), lattice, beam(reading), row.occupied, row.domain, 0.0)
+        words, least = count_cells(lattice.bitmaps(middle), lattice, beam(reading), row.occupied, row.domain, 0.0)
         assert words.any(), "the cell that ends at x holds a pose from which the beam just touches"
         assert least[words.any(axis=1)].min() == 0
 
@@ -106,8 +106,8 @@ def test_answers_of_a_part_of_a_map_are_those_of_the_whole(resolution: float) ->
     for _ in range(100):
         x, y = lattice.position_m * int(random.integers(2, 90)), 5.0 * lattice.part_m
         reading = 199.0 * resolution - x - float(random.uniform(0.0, 0.01)) * resolution
-        tiles = lattice.tiles(Boxes.of([(x - 0.6 * lattice.position_m, x - 0.4 * lattice.position_m), (y, y), (-half, -half)]))
-        (words, least), (part, fewest) = (count_cells(tiles, lattice, beam(reading), *each, 0.0) for each in tables)
+        bitmaps = lattice.bitmaps(Boxes.of([(x - 0.6 * lattice.position_m, x - 0.4 * lattice.position_m), (y, y), (-half, -half)]))
+        (words, least), (part, fewest) = (count_cells(bitmaps, lattice, beam(reading), *each, 0.0) for each in tables)
         assert np.array_equal(words, part)
         assert np.array_equal(least, fewest)
         kept += bool(words.any())

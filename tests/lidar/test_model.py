@@ -39,7 +39,7 @@ def scan_at(pose: Pose, outliers: int = 0) -> Beams:
 
 
 def free_area(model: LidarModel, boxes: Boxes) -> bool:
-    return bool(model.sheets[0, 0].domain.meet(Boxes(boxes.lower[:, :2], boxes.upper[:, :2])).all())
+    return bool(model.sections[0, 0].domain.meet(Boxes(boxes.lower[:, :2], boxes.upper[:, :2])).all())
 
 
 TRUTH = Pose(1.53, 0.87, 0.7)
@@ -91,8 +91,8 @@ def test_flags_follow_the_boxes() -> None:
     model = LidarModel(room(), CONFIG)
     both = unite(PoseSet(Boxes.of([(1.0, 1.1), (1.0, 1.1), (0, 0.1)])), PoseSet(Boxes.of([(2.0, 2.1), (2.0, 2.1), (2, 2.1)])))
     after = model.predict(both, Motion.identity())
-    assert 0 < after.carried.sum() < len(after)
-    assert after.boxes[~after.carried].hull().upper[0, 0] < 1.5 < after.boxes[after.carried].hull().lower[0, 0]
+    assert 0 < after.unconfirmed.sum() < len(after)
+    assert after.boxes[~after.unconfirmed].hull().upper[0, 0] < 1.5 < after.boxes[after.unconfirmed].hull().lower[0, 0]
 
 
 def test_a_scan_keeps_the_truth_and_confirms_or_empties_each_part() -> None:
@@ -104,12 +104,12 @@ def test_a_scan_keeps_the_truth_and_confirms_or_empties_each_part() -> None:
     assert free_area(model, static.boxes)
     confirmed = model.contract(unite(PoseSet(far), PoseSet(near)), beams)  # the scan empties what was confirmed
     assert confirmed.contains(TRUTH)
-    assert not confirmed.carried.any()
+    assert not confirmed.unconfirmed.any()
     dropped = model.contract(unite(PoseSet(near), PoseSet(far)), beams)
     assert dropped.contains(TRUTH)
-    assert not dropped.carried.any()
+    assert not dropped.unconfirmed.any()
     kept = model.contract(unite(PoseSet(static.boxes[:1]), PoseSet(static.boxes)), beams)
-    assert kept.carried.tolist() == [False] + [True] * (len(static) - 1)  # what is in both parts is there once, as confirmed
+    assert kept.unconfirmed.tolist() == [False] + [True] * (len(static) - 1)  # what is in both parts is there once, as confirmed
     assert len(static) > 1
     assert model.empty(model.contract(PoseSet(far), beams))
 
@@ -131,18 +131,18 @@ def test_recovery_searches_the_whole_map_and_carries_the_prediction_or_not(recov
     after = model.recover(before, still, scan_at(TRUTH))
     assert after.contains(TRUTH)
     assert after.contains(Pose(2.7, 2.2, -1.9)) == union
-    assert after.carried.any() == union
-    assert not after.carried.all()
+    assert after.unconfirmed.any() == union
+    assert not after.unconfirmed.all()
     blind = model.recover(before, still, NOWHERE)
     assert blind.contains(Pose(2.7, 2.2, -1.9))
-    assert blind.carried.all()
+    assert blind.unconfirmed.all()
     assert len(blind)
 
 
 def test_recovery_does_not_search_the_whole_map_twice(monkeypatch: pytest.MonkeyPatch) -> None:
     model = LidarModel(room(), CONFIG)
     monkeypatch.setattr(model, "contract", lambda *_: pytest.fail("searched again"))
-    assert model.recover(model.universe(), None, NOWHERE).carried.all()
+    assert model.recover(model.universe(), None, NOWHERE).unconfirmed.all()
 
 
 @pytest.mark.parametrize(("domain", "unknown"), [("free", False), ("free_or_unknown", True)])

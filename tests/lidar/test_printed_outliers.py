@@ -47,7 +47,7 @@ def nowhere() -> LaserScan:
 
 def confirmed(poses: PoseSet) -> list[list[float]]:
     """Return what the last scan has left, without what is only predicted, in one order."""
-    boxes = poses.boxes[~poses.carried]
+    boxes = poses.boxes[~poses.unconfirmed]
     return sorted(np.hstack([boxes.lower, boxes.upper]).tolist())
 
 

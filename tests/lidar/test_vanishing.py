@@ -89,7 +89,7 @@ def test_what_is_refuted_piece_by_piece_is_rejected() -> None:
             assert (bad_beams(UsedBeams.of(scan, config), poses, Obstacles(GRID)) > outliers).all()
             assert localizer.update(None, scan).status in ("lost", "blind")
             restarted = Localizer(GRID, config=replace(config, recovery="restart"), initial=start).update(None, scan)
-            assert restarted.status == "blind" or not restarted.poses.carried.any()
+            assert restarted.status == "blind" or not restarted.poses.unconfirmed.any()
     assert refuted > 5
 
 

@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 import numpy.typing as npt
 
-from ial.bouncing.motion_bounds import MotionBounds
+from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.rays.ray_grid import coarsened, least_pieces
 from ial.bouncing.rays.ray_set import RaySet
 from ial.contractors import cos, sin
@@ -80,7 +80,7 @@ class RayModel(Model[RaySet, None, int]):
         environment: Environment,
         bounce_deg: Fraction,
         step_m: Fraction,
-        bounds: MotionBounds = MotionBounds(),  # noqa: B008 (it is immutable)
+        bounds: ExecutionBounds = ExecutionBounds(),  # noqa: B008 (it is immutable)
         most_pieces: int = MOST_PIECES,
         headings_deg: tuple[tuple[Fraction, Fraction], ...] = (),
         region: tuple[Fraction, Fraction, Fraction, Fraction] | None = None,

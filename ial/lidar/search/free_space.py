@@ -23,7 +23,7 @@ from ial.lidar.evidence.beams import Beams
 from ial.lidar.evidence.end_points import relative_bounds
 from ial.lidar.margins import MARGIN, NEAR
 from ial.lidar.search.bit_columns import BitColumns, read_bits
-from ial.lidar.search.rectangle_indices import OFFSET, corners
+from ial.lidar.search.rectangle_indices import OFFSET, rectangle_indices
 from ial.maps.grids.cell_index import BORDER, CellIndex
 
 _STEEPEST = 0.55  # a ray runs along an axis if its cosine with it is above this at both ends of its interval
@@ -245,7 +245,7 @@ def _bad(xl, yl, xu, yu, bounds, barred, flat, stride, row_limit, column_limit):
         if barred[i]:
             failed += 1
             continue
-        left, below, right, above = corners(
+        left, below, right, above = rectangle_indices(
             bounds, i, xl + OFFSET, yl + OFFSET, xu + (OFFSET + 1.0), yu + (OFFSET + 1.0), column_limit, row_limit
         )
         low, high = np.uint64(below) * stride, np.uint64(above) * stride

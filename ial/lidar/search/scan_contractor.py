@@ -14,7 +14,7 @@ from ial.lidar.evidence.beams import Beams
 from ial.lidar.evidence.end_points import relative_bounds
 from ial.lidar.margins import NEAR
 from ial.lidar.search.narrowing import narrow
-from ial.lidar.search.rectangle_indices import OFFSET, corners
+from ial.lidar.search.rectangle_indices import OFFSET, rectangle_indices
 from ial.maps.grids.cell_index import BORDER, CellIndex
 
 
@@ -29,7 +29,7 @@ def fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit, order
     failed = 0
     for at in range(beams):
         i = order[at]
-        left, below, right, above = corners(bounds, i, xl, yl, xu, yu, column_limit, row_limit)
+        left, below, right, above = rectangle_indices(bounds, i, xl, yl, xu, yu, column_limit, row_limit)
         low = np.uint64(below) * stride
         high = np.uint64(above) * stride
         near = np.uint64(left)

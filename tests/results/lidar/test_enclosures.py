@@ -65,7 +65,7 @@ def test_a_line_holds_what_the_format_promises(estimate_of: Callable[..., Any], 
     box = [(1.0, 2.0), (3.0, 3.5), (0.1, 0.2)]
     run = [
         estimate_of(4, box),
-        estimate_of(6, box, status="blind", carried=True, limited="time", uninformative=True),
+        estimate_of(6, box, status="blind", unconfirmed=True, limited="time", uninformative=True),
         estimate_of(7, box, status="localized", vanishing=True),
     ]
     first, second, third = map(json.loads, written(tmp_path / "enclosures.jsonl", run).read_text().splitlines())
