@@ -9,8 +9,9 @@ from ial.datasets.motion import Motion
 from ial.datasets.scan import LaserScan
 from ial.errors import ConfigError
 from ial.lidar.configuration.config import LocalizerConfig
-from ial.lidar.estimate import Hypothesis, Status, find_hypotheses, judge
+from ial.lidar.estimate import Status, judge
 from ial.lidar.evidence.beams import Beams, scan_beams
+from ial.lidar.hypothesis import Hypothesis, find_hypotheses
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet, unite
 from ial.lidar.pose_sets import PoseSets
