@@ -1,6 +1,6 @@
 """Intersection and union: all of several constraints, or at least one of them. Each is the other's complement."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
@@ -13,7 +13,35 @@ from ial.contractors.contractor import Contractor, ContractorLike, common_dimens
 from ial.contractors.space import common_space
 
 
-class Intersection(CheckedContractor):
+class _Combination(CheckedContractor):
+    """What an intersection and a union share: their members.
+
+    Parameters
+    ----------
+    members
+        Contractors and families.
+    kind
+        Members of this very class give their own members.
+    outliers
+        Of a family, which counts as one member here, how many constraints may fail.
+    """
+
+    def __init__(self, members: Iterable[Member], kind: type["_Combination"], outliers: Callable[[Family], int]) -> None:
+        known = members_of(members)
+        self.dimension = common_dimension(known)
+        self.space = common_space(known)
+        flat: list[ContractorLike] = []
+        for member in known:
+            if isinstance(member, Family):
+                flat.append(Relaxed(member, outliers=outliers(member)))
+            elif isinstance(member, _Combination) and type(member) is kind:
+                flat.extend(member.contractors)
+            else:
+                flat.append(member)
+        self.contractors: tuple[ContractorLike, ...] = tuple(flat)
+
+
+class Intersection(_Combination):
     """All of several constraints: the contractors are applied one after the other, to the rows that are not yet empty.
 
     Parameters
@@ -31,16 +59,7 @@ class Intersection(CheckedContractor):
     """
 
     def __init__(self, *contractors: Member) -> None:
-        members = members_of(contractors)
-        self.dimension = common_dimension(members)
-        self.space = common_space(members)
-        flat: list[ContractorLike] = []
-        for member in members:
-            if isinstance(member, Family):
-                flat.append(Relaxed(member, outliers=0))
-            else:
-                flat.extend(member.contractors if type(member) is Intersection else [member])
-        self.contractors: tuple[ContractorLike, ...] = tuple(flat)
+        super().__init__(contractors, Intersection, lambda family: 0)
 
     def __repr__(self) -> str:
         return " & ".join(f"({contractor!r})" for contractor in self.contractors)
@@ -75,7 +94,7 @@ class Intersection(CheckedContractor):
         """Note how many rows a contractor was given, and how many it left."""
 
 
-class Union(CheckedContractor):
+class Union(_Combination):
     """At least one of several constraints: the hull of what the contractors leave of each box.
 
     A row whose hull is as large as the row itself is not passed on to further contractors.
@@ -94,16 +113,7 @@ class Union(CheckedContractor):
     """
 
     def __init__(self, *contractors: Member) -> None:
-        members = members_of(contractors)
-        self.dimension = common_dimension(members)
-        self.space = common_space(members)
-        flat: list[ContractorLike] = []
-        for member in members:
-            if isinstance(member, Family):
-                flat.append(Relaxed(member, outliers=member.count - 1))
-            else:
-                flat.extend(member.contractors if type(member) is Union else [member])
-        self.contractors: tuple[ContractorLike, ...] = tuple(flat)
+        super().__init__(contractors, Union, lambda family: family.count - 1)
 
     def __repr__(self) -> str:
         return " | ".join(f"({contractor!r})" for contractor in self.contractors)

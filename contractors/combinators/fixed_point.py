@@ -50,10 +50,7 @@ class FixedPoint(CheckedContractor):
     """
 
     def __init__(self, contractor: ContractorLike, ratio: float = 0.05, max_rounds: int = 100) -> None:
-        if not 0.0 <= ratio < 1.0:
-            raise ValueError(f"the ratio is {ratio}; give a number from 0 to less than 1")
-        if max_rounds < 1:
-            raise ValueError(f"the number of rounds is {max_rounds}; give at least 1")
+        check_rounds(ratio, max_rounds)
         self.dimension = contractor.dimension
         self.space = common_space([contractor])
         self.contractor = contractor
@@ -82,6 +79,20 @@ class FixedPoint(CheckedContractor):
             found.lower[rows], found.upper[rows] = rest.lower, rest.upper
             rows = rows[_shrunk(before.lower, before.upper, rest.lower, rest.upper, self.ratio)]
         return found
+
+
+def check_rounds(ratio: float, max_rounds: int) -> None:
+    """Raise unless rounds can end so.
+
+    Raises
+    ------
+    ValueError
+        Unless 0 <= `ratio` < 1 and `max_rounds` is at least 1.
+    """
+    if not 0.0 <= ratio < 1.0:
+        raise ValueError(f"the ratio is {ratio}; give a number from 0 to less than 1")
+    if max_rounds < 1:
+        raise ValueError(f"the number of rounds is {max_rounds}; give at least 1")
 
 
 @overload
