@@ -9,7 +9,7 @@ from ial.errors import ConfigError
 from ial.lidar.configuration.config import LocalizerConfig
 from ial.lidar.estimate import Status, judge
 from ial.lidar.evidence.beams import Beams, scan_beams
-from ial.lidar.hypotheses import Hypothesis, find_hypotheses
+from ial.lidar.hypothesis import Hypothesis, find_hypotheses
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet
 from ial.lidar.pose_sets import PoseSets

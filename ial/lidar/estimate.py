@@ -10,7 +10,7 @@ from ial.contractors.margins import ABOVE
 from ial.contractors.paving.limits import Limit
 from ial.lidar.configuration.config import LocalizedSize
 from ial.lidar.global_check import GlobalCheck
-from ial.lidar.hypotheses import Hypothesis
+from ial.lidar.hypothesis import Hypothesis
 from ial.lidar.pose_set import PoseSet
 from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.membership.set_membership_filter import Rejection

@@ -10,7 +10,7 @@ from ial.lidar.configuration.config import Bounds, LocalizerConfig, Outliers
 from ial.lidar.estimate import Estimate, judge, radius
 from ial.lidar.evidence.beams import Beams, scan_beams
 from ial.lidar.global_check import GlobalCheck, check_everywhere
-from ial.lidar.hypotheses import find_hypotheses
+from ial.lidar.hypothesis import find_hypotheses
 from ial.lidar.images import are_images
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet

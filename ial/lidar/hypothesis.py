@@ -1,4 +1,4 @@
-"""`Hypothesis`: one connected set of possible poses; and what finds those of an answer."""
+"""`Hypothesis`: one connected set of possible poses, and how a set of poses falls into such."""
 
 import itertools
 from dataclasses import dataclass
