@@ -54,24 +54,29 @@ class Number(Kind):
         It is not below this.
     above
         It is above this, where it is given.
+    most
+        It is not above this.
     because
         Why, where that is not plain.
     """
 
     least: float = 0.0
     above: float | None = None
+    most: float = math.inf
     because: str = ""
 
     @property
     def allowed(self) -> str:
         """What may be given."""
         limit = f"greater than or equal to {self.least:g}" if self.above is None else f"greater than {self.above:g}"
+        limit += "" if self.most == math.inf else f" and at most {self.most:g}"
         return f"a finite number {limit}" + (f": {self.because}" if self.because else "")
 
     @property
     def brief(self) -> str:
         """The same, short."""
-        return f"≥ {self.least:g}" if self.above is None else f"> {self.above:g}"
+        limit = f"≥ {self.least:g}" if self.above is None else f"> {self.above:g}"
+        return limit if self.most == math.inf else f"{limit}, ≤ {self.most:g}"
 
     def checked(self, value: Any) -> float:
         """Return a real number as a float that is no other number: a bound must not change by being kept."""
@@ -83,7 +88,8 @@ class Number(Kind):
             number = float(value)
         except OverflowError:
             number = math.inf
-        if not math.isfinite(number) or number < self.least or (self.above is not None and number <= self.above):
+        enough = number >= self.least if self.above is None else number > self.above
+        if not (math.isfinite(number) and enough and number <= self.most):
             raise ValueError(f"give {self.allowed}")
         if number != value:
             raise ValueError(f"give a float: as one, this would be rounded to {number!r}")
