@@ -12,7 +12,8 @@ from ial.datasets.recording import Step
 from ial.datasets.sample import sample_grid, sample_recording
 from ial.datasets.scan import LaserScan, Mounting
 from ial.lidar.configuration.config import Bounds
-from ial.lidar.estimate import Estimate, find_hypotheses
+from ial.lidar.estimate import Estimate
+from ial.lidar.hypothesis import find_hypotheses
 from ial.lidar.localizer import Localizer
 from ial.lidar.pose_set import PoseSet
 from ial.lidar.run import localize
