@@ -42,9 +42,9 @@ def grid() -> OccupancyGrid:
 def estimate_of(grid: OccupancyGrid) -> Callable[..., tuple[Step, Estimate]]:
     """Return a function that makes the estimate of one scan from rows of boxes in the grid frame."""
 
-    def make(index: int, *rows: Any, status: str = "ambiguous", carried: bool = False, **changes: Any) -> tuple[Step, Estimate]:
+    def make(index: int, *rows: Any, status: str = "ambiguous", unconfirmed: bool = False, **changes: Any) -> tuple[Step, Estimate]:
         boxes = Boxes.of(*rows) if rows else Boxes.none(3)
-        poses = PoseSet(boxes, np.full(len(boxes), carried))
+        poses = PoseSet(boxes, np.full(len(boxes), unconfirmed))
         hypotheses = find_hypotheses(poses, grid)
         stamp = 10**18 + 123456789 * index
         scan = LaserScan(stamp, np.array([1.0, 2.0, np.inf]), -0.5, 0.5, 0.1, 10.0, mounting=Mounting(0.2, 0.1, 0.3, upside_down=True))
