@@ -1,6 +1,6 @@
 """Compilation of kernels with Numba.
 
-Their code is kept by `KernelCache` in a `KernelFolder`, which is named after the hash of all `KernelSources`.
+Their code is kept by `KernelCache` in a `KernelFolder`, under a name that follows from their `KernelSources`.
 """
 
 from collections.abc import Callable
