@@ -14,7 +14,7 @@ from ial.bouncing.cells.cell_map import CellMap
 from ial.bouncing.cells.headings import Headings
 from ial.bouncing.cells.noisy_map import NoisyMap
 from ial.bouncing.cells.noisy_model import NoisyModel
-from ial.bouncing.motion_bounds import MotionBounds
+from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.rays.real_robot import RealRobot
 from ial.errors import FilterError
 from ial.maps.polygons.environment import Environment
@@ -36,13 +36,13 @@ def ring(*corners: tuple[int, int]) -> tuple[tuple[Fraction, Fraction], ...]:
 HALL = Environment((Polygon(ring((0, 0), (9, 0), (9, 4), (5, 4), (5, 7), (0, 7)), (ring((2, 2), (2, 4), (3, 4), (3, 2)),)),))
 CELL, HEADINGS = Fraction(1, 4), Headings.of_angle(Fraction(100), 36, Fraction(4))
 BOUNDS = {
-    "none, real geometry": MotionBounds(),
-    "turn ± 1°": MotionBounds(Fraction(1)),
-    "turn ± 10°": MotionBounds(Fraction(10)),
-    "step ± 2 %": MotionBounds(step=Fraction(1, 50)),
-    "step ± 10 %": MotionBounds(step=Fraction(1, 10)),
-    "count ± 1": MotionBounds(count=1),
-    "all: 1°, 2 %, 1": MotionBounds(Fraction(1), Fraction(1, 50), 1),
+    "none, real geometry": ExecutionBounds(),
+    "turn ± 1°": ExecutionBounds(Fraction(1)),
+    "turn ± 10°": ExecutionBounds(Fraction(10)),
+    "step ± 2 %": ExecutionBounds(step=Fraction(1, 50)),
+    "step ± 10 %": ExecutionBounds(step=Fraction(1, 10)),
+    "count ± 1": ExecutionBounds(count=1),
+    "all: 1°, 2 %, 1": ExecutionBounds(Fraction(1), Fraction(1, 50), 1),
 }
 
 

@@ -18,7 +18,7 @@ beams as the answer prints, lies in the domain, and is reached by a motion withi
 the answer, in the hull of a hypothesis, and within the radius. *Lost* are those that do not. Seconds are those of the processor."""
 
 SHOWN = 5
-RARE = {"sheets": 20, "extreme": 2}  # a drive in so many rounds: these are slow
+RARE = {"sections": 20, "extreme": 2}  # a drive in so many rounds: these are slow
 
 
 def row(mode: str, tally: Tally) -> list[object]:

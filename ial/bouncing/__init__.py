@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from ial.bouncing.cells.noisy_map import NoisyMap as NoisyMap
     from ial.bouncing.cells.noisy_model import NoisyModel as NoisyModel
     from ial.bouncing.cells.set_graph import SetGraph as SetGraph
+    from ial.bouncing.execution_bounds import ExecutionBounds as ExecutionBounds
     from ial.bouncing.filters.bank import FilterBank as FilterBank
     from ial.bouncing.filters.bounce_filter import BounceFilter as BounceFilter
     from ial.bouncing.filters.bounce_filter import Place as Place
@@ -32,7 +33,6 @@ if TYPE_CHECKING:
     from ial.bouncing.filters.filter_file import read_filter as read_filter
     from ial.bouncing.filters.filter_file import write_filter as write_filter
     from ial.bouncing.filters.setting import Setting as Setting
-    from ial.bouncing.motion_bounds import MotionBounds as MotionBounds
     from ial.bouncing.planning.angle_search import AngleSequence as AngleSequence
     from ial.bouncing.planning.angle_search import search_angles as search_angles
     from ial.bouncing.planning.information_sets import InformationSets as InformationSets
@@ -64,7 +64,7 @@ else:
             "planning.information_sets": ("InformationSets",),
             "automata.minimal": ("minimize",),
             "cells.model": ("BouncingModel",),
-            "motion_bounds": ("MotionBounds",),
+            "execution_bounds": ("ExecutionBounds",),
             "cells.noisy_map": ("NoisyMap",),
             "cells.noisy_model": ("NoisyModel",),
             "automata.nondeterministic": ("NondeterministicAutomaton",),

@@ -21,7 +21,7 @@ from ial.lidar.output_end import OutputEnd
 from ial.lidar.pose_set import PoseSet
 from ial.whole_file import rewrite
 
-_FORM = "ial checkpoint 3"
+_FORM = "ial checkpoint 4"
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +69,7 @@ class Checkpoint:
         }
         content = io.BytesIO()
         text = np.frombuffer(json.dumps(about).encode(), dtype=np.uint8)
-        np.savez(content, about=text, lower=poses.boxes.lower, upper=poses.boxes.upper, carried=poses.carried, bad=poses.bad)
+        np.savez(content, about=text, lower=poses.boxes.lower, upper=poses.boxes.upper, unconfirmed=poses.unconfirmed, bad=poses.bad)
         rewrite(path, content.getbuffer(), "the state")
 
     @classmethod
@@ -88,7 +88,7 @@ class Checkpoint:
                     raise ValueError("not this form")
                 poses = PoseSet(
                     Boxes(content["lower"], content["upper"]),
-                    content["carried"],
+                    content["unconfirmed"],
                     limited=about["limited"],
                     bad=content["bad"],
                     outliers=int(about["outliers"]),

@@ -6,8 +6,8 @@ import numpy as np
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.paving.clusters import cluster
-from ial.lidar.estimate import Hypothesis, find_hypotheses
 from ial.lidar.evidence.beams import Beams
+from ial.lidar.hypothesis import Hypothesis, find_hypotheses
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet
 
@@ -57,10 +57,10 @@ def check_everywhere(model: LidarModel, poses: PoseSet, beams: Beams) -> GlobalC
         None if nothing can be said: the scan excludes nothing, or the set is only a prediction, or coarse, so that its bad beams are
         unknown.
     """
-    if not beams.informative or poses.limited or not len(poses) or poses.carried.all():
+    if not beams.informative or poses.limited or not len(poses) or poses.unconfirmed.all():
         return None
-    confirmed = poses.boxes[~poses.carried]
-    inside = int(poses.bad[~poses.carried].min())
+    confirmed = poses.boxes[~poses.unconfirmed]
+    inside = int(poses.bad[~poses.unconfirmed].min())
     found = model.contract(model.universe(), beams.allowing(inside))
     if found.limited:
         return None

@@ -9,7 +9,7 @@ from ial.contractors.margins import UNIT
 from ial.maps.grids.occupancy_grid import LARGEST_RESOLUTION, LARGEST_SIDE
 
 MOST_CELLS = 2**22
-"""Cells along a side of a whole map; `Sheets` refuses more."""
+"""Cells along a side of a whole map; `Sections` refuses more."""
 
 NEAR = LARGEST_SIDE + 2.0
 """Cells from the corner of a table within which a robot may be; a table has at most `LARGEST_SIDE` cells a side."""
@@ -26,8 +26,9 @@ It covers what comes before and after it, with u = 2⁻⁵³, N = `MOST_CELLS` a
 - a cell of the lattice (`Lattice.part_m`): the same once more, for the ratio of the two widths: 2u·N;
 - going back from a cell to a position in metres: the origin of the table added, and a product: 2u·N;
 - the end point: its errors or, for any heading, its radius: four roundings; the error of the map, a quotient by the width of a cell, the
-  margin, the origin of the table, `corners.OFFSET`, the position and the drift of the lattice; or a strip along rays: of its start two
-  quotients and sums, a slope times a difference, and three sums: at most 12 roundings of coordinates, each off by less than u·8·2¹⁶.
+  margin, the origin of the table, `rectangle_indices.OFFSET`, the position and the drift of the lattice; or a strip along rays: of its
+  start two quotients and sums, a slope times a difference, and three sums: at most 12 roundings of coordinates, each off by less than
+  u·8·2¹⁶.
 """
 
 assert 6.0 * UNIT * MOST_CELLS + 12.0 * UNIT * 8.0 * LARGEST_SIDE < MARGIN

@@ -15,33 +15,32 @@ from ial.errors import ConfigError
 from ial.lidar.configuration.config import LocalizerConfig
 from ial.lidar.evidence.beams import Beams
 from ial.lidar.pose_set import PoseSet, join, unite
-from ial.lidar.search.border_refinement import mend, trim
-from ial.lidar.search.cell_bitmaps import Tiles
+from ial.lidar.search.border_refinement import mend, refine_border
+from ial.lidar.search.cell_bitmaps import CellBitmaps
 from ial.lidar.search.cell_counts import count_cells
 from ial.lidar.search.free_space import count_blocked
 from ial.lidar.search.lattice import Lattice, divide
-from ial.lidar.search.map_tables import Sheet, Sheets
-from ial.lidar.search.outlier_budget import allowing
+from ial.lidar.search.map_tables import MapTables, Sections
+from ial.lidar.search.outlier_budget import within_budget
 from ial.lidar.search.pose_contractor import PoseContractor
 from ial.lidar.search.prediction import in_rows, move
 from ial.maps.grids.occupancy_grid import FREE, UNKNOWN, OccupancyGrid, check_usable
 from ial.maps.grids.symmetry import symmetries
-from ial.membership import Model
+from ial.membership.model import ContractingModel
 from ial.pose import Pose
 
 _COARSE = 2.0
 """Boxes are bisected down to this many cells of the lattice along each axis; what is left of them is tried part by part."""
 
-_CHUNK = 1 << 12  # tiles that are tried at a time, 2 KB each
+_CHUNK = 1 << 12  # bitmaps that are tried at a time, 2 KB each
 _BATCH = 1 << 14  # larger ones sweep more of a map's table than the caches hold: a third slower on 400 × 400 m
 _LAID_OUT_CELLS = 1 << 17  # above, a set is laid out coarser, and refined by the scan
-_SEARCHING = 0.5  # the share of a scan's time that searches may take; laying out the set and telling its hypotheses apart takes the rest
 _CELLS_PER_S = 2.5e5  # that are laid out where time is limited, for each second of it
-_TRIMMED = 1 << 10  # boxes of a set
-_FIRST_TILES = 16  # that are tried while it is not known how long one takes
+_REFINED = 1 << 10  # boxes of a set
+_FIRST_BITMAPS = 16  # that are tried while it is not known how long one takes
 
 
-class LidarModel(Model[PoseSet, Motion | None, Beams]):
+class LidarModel(ContractingModel[PoseSet, Motion | None, Beams]):
     """Sets of poses, moved by odometry and contracted by scans.
 
     Parameters
@@ -66,7 +65,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         self.config = config
         split, parts = divide(grid.resolution, config.precision.position_m)
         self.lattice = Lattice(parts * (grid.resolution / split), config.precision.heading_rad, parts)
-        self.sheets = Sheets(
+        self.sections = Sections(
             grid,
             allowed,
             split,
@@ -75,15 +74,9 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
             free_space=config.free_space.use,
             position_m=config.precision.position_m,
         )
-        self._universe = PoseSet(self.sheets.universe)
+        self._universe = PoseSet(self.sections.universe)
         most = _LAID_OUT_CELLS if config.max_seconds is None else max(64, int(_CELLS_PER_S * config.max_seconds))
         self._affordable = min(most, _LAID_OUT_CELLS, config.max_boxes)
-        self.start_clock()
-
-    def start_clock(self) -> None:
-        """Let the time begin that one scan may take; what is searched for from now on ends with it."""
-        most = self.config.max_seconds
-        self._deadline = Deadline(None if most is None else _SEARCHING * most)
 
     def universe(self) -> PoseSet:
         """Return every pose in the map."""
@@ -108,16 +101,16 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         """Return the moved poses that lie in the domain, laid out on the lattice; None is the motion before the first scan."""
         if motion is None:
             return states
-        parts = (states.boxes[rows] for rows in (~states.carried, states.carried))
-        confirmed, carried = (self._laid_out(move(in_rows(boxes), motion), boxes.volume()) for boxes in parts)
-        return replace(unite(PoseSet(confirmed), PoseSet(carried)), outliers=states.outliers, accepted=states.accepted)
+        parts = (states.boxes[rows] for rows in (~states.unconfirmed, states.unconfirmed))
+        confirmed, unconfirmed = (self._laid_out(move(in_rows(boxes), motion), boxes.volume()) for boxes in parts)
+        return replace(unite(PoseSet(confirmed), PoseSet(unconfirmed)), outliers=states.outliers, accepted=states.accepted)
 
     def _laid_out(self, boxes: Boxes, volume: float = 0.0) -> Boxes:
         """Return the cells of the lattice that cover boxes, as far as they meet the domain; see `Lattice.cover`."""
         cells = self.lattice.cover(self._within_map(boxes), self._affordable, volume)
         met = np.zeros(len(cells), dtype=np.bool_)
-        for key, rows, parts in self.sheets.parts(cells):
-            met[rows] |= self.sheets[key].domain.meet(Boxes(parts.lower[:, :2], parts.upper[:, :2]))
+        for key, rows, parts in self.sections.parts(cells):
+            met[rows] |= self.sections[key].domain.meet(Boxes(parts.lower[:, :2], parts.upper[:, :2]))
         return cells[met]
 
     def _within_map(self, boxes: Boxes) -> Boxes:
@@ -131,82 +124,81 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
 
     def step(self, states: PoseSet, motion: Motion | None, reading: Beams) -> PoseSet:
         """Return what is left after a motion and a scan. A set of ordinary size is laid out and tried in one go."""
-        if motion is None or not reading.informative or states.carried.any():
+        if motion is None or not reading.informative or states.unconfirmed.any():
             return self.contract(self.predict(states, motion), reading)
-        self.sheets.reach(reading, self.config.bounds.map_error_m)
+        self.sections.reach(reading)
         volume = states.boxes.volume()
         moved = self._within_map(move(in_rows(states.boxes), motion))
-        keys = [key for key, _, _ in self.sheets.parts(moved)]
+        keys = [key for key, _, _ in self.sections.parts(moved)]
         finest = float(self.lattice.widths.prod())
         small = len(keys) == 1 and volume < 2.0 * self._affordable * finest
-        tiles = self.lattice.few_tiles(moved, self._affordable) if small else None
-        if tiles is None:
+        bitmaps = self.lattice.few_bitmaps(moved, self._affordable) if small else None
+        if bitmaps is None:
             return self.contract(PoseSet(self._laid_out(moved, volume), accepted=states.accepted), reading)
-        sheet = self.sheets[keys[0]]
-        return allowing(reading, states, lambda most: self._coarsened(self._tried(sheet, tiles, moved, most), most))
+        tables = self.sections[keys[0]]
+        return within_budget(reading, states, lambda most: self._coarsened(self._tried(tables, bitmaps, moved, most), most))
 
     def contract(self, states: PoseSet, reading: Beams) -> PoseSet:
-        """Return the poses that a scan allows. Confirmed and carried ones stay apart while both survive; what is both is confirmed."""
+        """Return the poses that a scan allows. Confirmed and unconfirmed ones stay apart while both survive; what is both is confirmed."""
         if not reading.informative:
             return states
-        self.sheets.reach(reading, self.config.bounds.map_error_m)
-        return allowing(reading, states, lambda most: self._contracted(states, most))
+        self.sections.reach(reading)
+        return within_budget(reading, states, lambda most: self._contracted(states, most))
 
     def _contracted(self, states: PoseSet, reading: Beams) -> PoseSet:
-        confirmed, carried = (self._paved(states.boxes[rows], reading) for rows in (~states.carried, states.carried))
+        confirmed, unconfirmed = (self._paved(states.boxes[rows], reading) for rows in (~states.unconfirmed, states.unconfirmed))
         if not len(confirmed):
-            return carried
-        if not len(carried):
+            return unconfirmed
+        if not len(unconfirmed):
             return confirmed
-        return unite(confirmed, carried.without(confirmed.boxes))
+        return unite(confirmed, unconfirmed.without(confirmed.boxes))
 
     def _paved(self, boxes: Boxes, reading: Beams) -> PoseSet:
-        pieces = list(self.sheets.parts(boxes))
+        pieces = list(self.sections.parts(boxes))
         found: list[PoseSet] = []
         for number, (key, _, piece) in enumerate(pieces):
-            found.append(self._searched(self.sheets[key], piece, reading, self.config.max_boxes - sum(map(len, found))))
+            found.append(self._searched(self.sections[key], piece, reading, self.config.max_boxes - sum(map(len, found))))
             if found[-1].limited:
                 ahead = (PoseSet(piece) for _, _, piece in pieces[number + 1 :])
                 return self._coarsened(join([*found, *ahead], reading.outliers), reading)
         return join(found, reading.outliers)
 
-    def _searched(self, sheet: Sheet, boxes: Boxes, reading: Beams, max_boxes: int) -> PoseSet:
+    def _searched(self, tables: MapTables, boxes: Boxes, reading: Beams, max_boxes: int) -> PoseSet:
         """Return the cells in boxes that may hold a consistent pose; where a limit is reached, boxes that cover what is left, marked."""
         coarse = self.lattice.widths * _COARSE
         if not (boxes.width() > coarse).any():
-            return self._tried(sheet, self.lattice.tiles(boxes), boxes, reading)
-        contractor = PoseContractor(reading, sheet.occupied, sheet.domain, self.config.bounds.map_error_m)
-        left = self._deadline.left_s
+            return self._tried(tables, self.lattice.bitmaps(boxes), boxes, reading)
+        contractor = PoseContractor(reading, tables.occupied, tables.domain)
+        left = reading.deadline.left_s
         # What the clock leaves half done is to be equally coarse everywhere: the next scan goes on from there.
         order: Order = "depth" if left is None else "breadth"
         paving = pave(contractor, boxes, coarse, order=order, max_boxes=max(max_boxes, 1), max_seconds=left, batch=_BATCH)
         if paving.limited:
             # A search that was stopped leaves large boxes: finer cells than it had boxes would say no more.
-            return PoseSet(paving.boxes, limited=paving.limited, nodes=paving.nodes)
-        found = self._tried(sheet, self.lattice.tiles(paving.boxes), paving.boxes, reading)
-        return replace(found, nodes=paving.nodes + found.nodes)
+            return PoseSet(paving.boxes, limited=paving.limited)
+        return self._tried(tables, self.lattice.bitmaps(paving.boxes), paving.boxes, reading)
 
-    def _tried(self, sheet: Sheet, tiles: Tiles, boxes: Boxes, reading: Beams) -> PoseSet:
+    def _tried(self, tables: MapTables, bitmaps: CellBitmaps, boxes: Boxes, reading: Beams) -> PoseSet:
         """Return the cells that may hold a consistent pose; where they are too many, or the time is up, the boxes, marked."""
-        deadline = Deadline(self._deadline.left_s, _FIRST_TILES)
+        deadline = Deadline(reading.deadline.left_s, _FIRST_BITMAPS)
         found, counts, total = [Boxes.none(3)], [np.empty(0, dtype=np.int16)], 0
         start = 0
-        while start < len(tiles.keys):
-            portion = deadline.portion(min(_CHUNK, len(tiles.keys) - start))
+        while start < len(bitmaps.keys):
+            portion = deadline.portion(min(_CHUNK, len(bitmaps.keys) - start))
             if not portion:
                 return PoseSet(boxes, limited="time")
-            part = Tiles(tiles.keys[start : start + portion], tiles.words[start : start + portion])
-            words, least = count_cells(part, self.lattice, reading, sheet.occupied, sheet.domain, self.config.bounds.map_error_m)
-            left = Tiles(part.keys, words)
+            part = CellBitmaps(bitmaps.keys[start : start + portion], bitmaps.words[start : start + portion])
+            words, least = count_cells(part, self.lattice, reading, tables.occupied, tables.domain)
+            left = CellBitmaps(part.keys, words)
             total += len(left)
             if total > self.config.max_boxes:
                 return PoseSet(boxes, limited="boxes")
-            cells, bad = self._looked_along(sheet, self.lattice.boxes(left), left.values(least), reading)
+            cells, bad = self._looked_along(tables, self.lattice.boxes(left), left.values(least), reading)
             found.append(cells)
             counts.append(bad)
             deadline.worked(portion)
             start += portion
-        return PoseSet(Boxes.concatenate(found), nodes=len(tiles), bad=np.concatenate(counts), outliers=reading.outliers)
+        return PoseSet(Boxes.concatenate(found), bad=np.concatenate(counts), outliers=reading.outliers)
 
     def _coarsened(self, found: PoseSet, reading: Beams) -> PoseSet:
         """Return what a search has found; if a limit has stopped it, as not too many coarse cells that cover it."""
@@ -215,13 +207,15 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         boxes = found.boxes
         most = min(2 * len(boxes), self._affordable if found.limited == "time" else self.config.max_boxes)
         cells = self.lattice.cover(boxes, most, boxes.volume())
-        return PoseSet(cells, limited=found.limited, nodes=found.nodes, outliers=reading.outliers)
+        return PoseSet(cells, limited=found.limited, outliers=reading.outliers)
 
-    def _looked_along(self, sheet: Sheet, cells: Boxes, bad: npt.NDArray[np.int16], reading: Beams) -> tuple[Boxes, npt.NDArray[np.int16]]:
+    def _looked_along(
+        self, tables: MapTables, cells: Boxes, bad: npt.NDArray[np.int16], reading: Beams
+    ) -> tuple[Boxes, npt.NDArray[np.int16]]:
         """Return the cells from which not too many beams are bad or blocked, and how many are at least."""
-        if sheet.bits is None:
+        if tables.bits is None:
             return cells, bad
-        bad = count_blocked(cells, bad, reading, self.lattice.parts, sheet.occupied, sheet.bits, self.config.bounds.map_error_m)
+        bad = count_blocked(cells, bad, reading, self.lattice.parts, tables.occupied, tables.bits)
         rows = bad <= reading.outliers
         return cells[rows], bad[rows]
 
@@ -231,17 +225,13 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         Only a set of few cells is worth it. Cells that are carried on are not cut: a set that reaches a little farther forgives more.
         """
         halvings = self.config.precision.halvings
-        if not halvings or not reading.informative or poses.limited or not 0 < len(poses) <= _TRIMMED or poses.carried.any():
+        if not halvings or not reading.informative or poses.limited or not 0 < len(poses) <= _REFINED or poses.unconfirmed.any():
             return poses
         allowed = reading.allowing(poses.outliers)
-        cut, kept = trim(poses.boxes, self.lattice, self.sheets, allowed, self.config.bounds.map_error_m, halvings)
+        cut, kept = refine_border(poses.boxes, self.lattice, self.sections, allowed, halvings)
         left = replace(poses, boxes=cut)[kept]
         whole = mend(poses.boxes, self.lattice, cut, kept, left.clusters)
         return left if whole is kept else replace(poses, boxes=cut)[whole]
-
-    def unrefuted(self, poses: PoseSet, reading: Beams) -> PoseSet:
-        """Return what a scan has left; none of it where `refine` proves that no pose in it is consistent."""
-        return poses if len(self.refine(poses, reading)) else poses.none()
 
     def symmetries(self) -> tuple[Pose, ...]:
         """Return the rotations of the grid's frame after which no scan can tell the difference."""
@@ -250,24 +240,16 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
     def in_domain(self, pose: Pose) -> bool:
         """Return whether a position in the grid's frame lies in a cell of the domain."""
         at = Boxes.of([(pose.x, pose.x), (pose.y, pose.y)])
-        return any(bool(self.sheets[key].domain.meet(part)[0]) for key, _, part in self.sheets.parts(at))
+        return any(bool(self.sections[key].domain.meet(part)[0]) for key, _, part in self.sections.parts(at))
+
+    def unite(self, found: PoseSet, predicted: PoseSet) -> PoseSet:
+        """Return poses that a scan allows and, as unconfirmed ones, poses of which the odometry alone is known."""
+        return unite(found, predicted)
+
+    def exhausted(self, states: PoseSet, motion: Motion | None) -> bool:
+        """Return whether a step from here searches the whole map."""
+        return motion is None and states is self._universe
 
     def empty(self, states: PoseSet) -> bool:
         """Return whether no pose is left."""
         return not len(states)
-
-    def recover(self, states: PoseSet, motion: Motion | None, reading: Beams) -> PoseSet:
-        """Return what to go on with after a scan that fits nowhere in the prediction.
-
-        The scan is searched over the whole map. With the policy `union` the uncontracted prediction is carried on beside what is found, so
-        that the truth is kept whichever of the last motion and the last scan broke its bound; `restart` drops it. If nothing is found
-        anywhere, the prediction alone is carried on.
-        """
-        predicted = self.predict(states, motion)
-        searched = motion is None and states is self._universe  # the step itself has searched the whole map in vain
-        found = PoseSet(Boxes.none(3), outliers=reading.outliers)
-        if not searched:
-            found = self.unrefuted(self.contract(self._universe, reading), reading)
-        if len(found) and self.config.recovery == "restart":
-            return found
-        return unite(found, predicted)

@@ -23,32 +23,29 @@ class PoseSet:
     ----------
     boxes
         The set, in the grid's frame; n rows of 3.
-    carried
+    unconfirmed
         Which boxes are a prediction that was carried on although a scan rejected it, bool of shape (n,).
     limited
         Which limit stopped the last search early, "" if none.
-    nodes
-        How many boxes the last search contracted.
     bad
         How many beams of the last scan are bad at least, wherever in a box the robot is; int16 of shape (n,), 0 where it is not known.
     outliers
-        How many beams of the last scan may be bad. All boxes but the carried ones were cut at this number, and where none are left, so
+        How many beams of the last scan may be bad. All boxes but the unconfirmed ones were cut at this number, and where none are left, so
         was the search that has found nothing.
     accepted
         The same of the last scan that has left a pose, with which that of the next scan is compared; None before there was one.
     """
 
     boxes: Boxes
-    carried: npt.NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
+    unconfirmed: npt.NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
     limited: Limit = ""
-    nodes: int = 0
     bad: npt.NDArray[np.int16] = field(default_factory=lambda: np.empty(0, dtype=np.int16))
     outliers: int = 0
     accepted: int | None = None
 
     def __post_init__(self) -> None:
-        if len(self.carried) != len(self.boxes):
-            object.__setattr__(self, "carried", np.zeros(len(self.boxes), dtype=np.bool_))
+        if len(self.unconfirmed) != len(self.boxes):
+            object.__setattr__(self, "unconfirmed", np.zeros(len(self.boxes), dtype=np.bool_))
         if len(self.bad) != len(self.boxes):
             object.__setattr__(self, "bad", np.zeros(len(self.boxes), dtype=np.int16))
 
@@ -60,13 +57,9 @@ class PoseSet:
         """The connected components of the boxes."""
         return cluster(self.boxes, circular=(2,))
 
-    def none(self) -> "PoseSet":
-        """Return the set without all of its boxes."""
-        return self[np.zeros(len(self), dtype=np.bool_)]
-
     def __getitem__(self, rows: npt.NDArray[np.bool_]) -> "PoseSet":
         """Return the set of the boxes that a mask chooses."""
-        return replace(self, boxes=self.boxes[rows], carried=self.carried[rows], bad=self.bad[rows])
+        return replace(self, boxes=self.boxes[rows], unconfirmed=self.unconfirmed[rows], bad=self.bad[rows])
 
     def checked(self) -> "PoseSet":
         """Return the set with its headings in the form of `ial.contractors.intervals.angle`.
@@ -112,17 +105,15 @@ def _names(boxes: Boxes) -> npt.NDArray[np.void]:
     return np.ascontiguousarray(bounds).view(f"V{bounds.itemsize * bounds.shape[1]}").reshape(-1)
 
 
-def unite(confirmed: PoseSet, carried: PoseSet) -> PoseSet:
-    """Return the union of poses that a scan allows, as its search has left them, and poses that are only predicted."""
-    flags = np.concatenate([np.zeros(len(confirmed), dtype=np.bool_), np.ones(len(carried), dtype=np.bool_)])
+def unite(found: PoseSet, predicted: PoseSet) -> PoseSet:
+    """Return the union of poses that a scan allows, as its search has left them, and poses that are only predicted: unconfirmed ones."""
     return PoseSet(
-        Boxes.concatenate([confirmed.boxes, carried.boxes]),
-        flags,
-        confirmed.limited or carried.limited,
-        confirmed.nodes + carried.nodes,
-        np.concatenate([confirmed.bad, carried.bad]),
-        confirmed.outliers,
-        confirmed.accepted if len(confirmed) else carried.accepted,
+        Boxes.concatenate([found.boxes, predicted.boxes]),
+        np.concatenate([found.unconfirmed, np.ones(len(predicted), dtype=np.bool_)]),
+        found.limited or predicted.limited,
+        np.concatenate([found.bad, predicted.bad]),
+        found.outliers,
+        found.accepted if len(found) else predicted.accepted,
     )
 
 
@@ -131,7 +122,6 @@ def join(parts: Sequence[PoseSet], outliers: int) -> PoseSet:
     return PoseSet(
         Boxes.concatenate([Boxes.none(3), *(each.boxes for each in parts)]),
         limited=next((each.limited for each in parts if each.limited), ""),
-        nodes=sum(each.nodes for each in parts),
         bad=np.concatenate([np.empty(0, dtype=np.int16), *(each.bad for each in parts)]),
         outliers=outliers,
     )

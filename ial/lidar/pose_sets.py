@@ -27,9 +27,9 @@ class PoseSets:
         return next((each.limited for each in self.by_map.values() if each.limited), "")
 
     @property
-    def carried(self) -> bool:
+    def unconfirmed(self) -> bool:
         """Whether the set is only a prediction that was carried on although a scan rejected it."""
-        return all(each.carried.all() for each in self.by_map.values())
+        return all(each.unconfirmed.all() for each in self.by_map.values())
 
     @property
     def fewest_bad(self) -> int:

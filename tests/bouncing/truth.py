@@ -7,7 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from ial.bouncing.motion_bounds import MotionBounds
+from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.rays.ray_grid import least_pieces
 from ial.bouncing.rays.ray_model import RayModel
 from ial.bouncing.rays.ray_set import RaySet
@@ -110,9 +110,9 @@ def follow(seed: int, legs: int = 6) -> Run:
     angle = Fraction(chooser.choice([45, 90, 135, 180])) if lattice else Fraction(chooser.randint(1, 35_999), 100)
     step = chooser.choice([Fraction(1, 10), Fraction(1, 3), Fraction(1), Fraction(5, 2)])
     bounds = (
-        MotionBounds()
+        ExecutionBounds()
         if seed % 2 == 0
-        else MotionBounds(
+        else ExecutionBounds(
             Fraction(chooser.choice([0, 1, 3]), chooser.choice([1, 10])),
             Fraction(chooser.choice([0, 1, 5]), 100),
             chooser.choice([0, 0, 1, 2]),

@@ -18,7 +18,7 @@ from ial.pose import Pose
 from ial.study.possible_motions import possible_motions
 from tests.lidar.fuzz_settings import factors, random_config, random_map
 
-MODES = ("static", "tracked", "lost", "blind", "maps", "lidars", "deskewed", "limited", "initial", "fine", "extreme", "sheets")
+MODES = ("static", "tracked", "lost", "blind", "maps", "lidars", "deskewed", "limited", "initial", "fine", "extreme", "sections")
 INSIDE = 1.0 - 1e-9
 LIDARS = {"laser": Mounting(), "rear": Mounting(-0.2, 0.05, math.pi, upside_down=True)}
 
@@ -57,7 +57,7 @@ def random_drive(mode: str, seed: int) -> Drive:
     twin = mode in ("lost", "static", "initial") and bool(random.integers(2))
     grids = {f"map {number}": random_map(random, mode, twin) for number in range(count)}
     grid = grids["map 0"]
-    fine = mode in ("fine", "sheets") or (mode in ("deskewed", "lidars") and bool(random.integers(2)))
+    fine = mode in ("fine", "sections") or (mode in ("deskewed", "lidars") and bool(random.integers(2)))
     drive = Drive(mode, seed, grids, random_config(random, mode, grid, fine), fine)
     width, height = grid.width_m, grid.height_m
     turned = np.array([width, height, math.pi])
@@ -100,7 +100,7 @@ class _Driver:
     def go(self) -> None:
         """Drive; halfway, a robot that is to get lost is carried away, one that is to be blind sees nonsense."""
         mode, random = self.drive.mode, self.random
-        moments = {"static": 1, "initial": 2, "sheets": 3, "maps": 3}.get(mode, 5)
+        moments = {"static": 1, "initial": 2, "sections": 3, "maps": 3}.get(mode, 5)
         pose = self._free_pose()
         for number in range(moments):
             motion = None

@@ -24,7 +24,7 @@ def random_map(random: Random, mode: str, twin: bool) -> OccupancyGrid:
     rows, columns = (int(each) for each in random.integers(14, 45, 2))
     resolution = float(random.choice([0.05, 0.1, 0.0333, 0.2, 1.0 / 3.0]))
     resolution *= float(factors(random, mode, 1)[0].clip(1e-4, 1e2))
-    if mode == "sheets":
+    if mode == "sections":
         rows, columns, resolution = rows + 90, columns + 90, 1.0 / 3.0
     cells = np.full((rows, columns), FREE, dtype=np.uint8)
     for _ in range(int(random.integers(1, 9))):
@@ -72,7 +72,7 @@ def random_config(random: Random, mode: str, grid: OccupancyGrid, fine: bool) ->
     )
     outliers = ("auto", "auto", "auto", 0.35, 0.29, 0.1, 2, 0)[int(random.integers(8))]
     position, heading = random.uniform([0.7, 0.05], [4.0, 0.3]) if not fine else random.uniform([0.1, 0.01], [0.3, 0.03])
-    position = 0.02 if mode == "sheets" else position
+    position = 0.02 if mode == "sections" else position
     config = LocalizerConfig(
         bounds=bounds,
         outliers=outliers,  # type: ignore[arg-type]
@@ -87,7 +87,7 @@ def random_config(random: Random, mode: str, grid: OccupancyGrid, fine: bool) ->
         robot_radius_m=float(random.choice([0.0, 0.0, 0.0, 0.7, 1.6]) * cell),
         recovery="restart" if not random.integers(4) else "union",
     )
-    if fine and mode != "sheets":
+    if fine and mode != "sections":
         config = replace(config, max_boxes=20_000)  # a robot that is tracked needs no more, and one that is lost not so many
     if mode == "limited":
         most = (

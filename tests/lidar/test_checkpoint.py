@@ -42,12 +42,12 @@ def test_every_part_of_the_set_is_kept(recording: Recording, tmp_path: Path) -> 
     localizer = Localizer(sample_grid())
     step = next(steps(recording, localizer.config.bounds.motion))
     localizer.update(None, step.scan)
-    poses = replace(localizer.poses, carried=np.arange(len(localizer.poses)) % 2 == 0, limited="time")
+    poses = replace(localizer.poses, unconfirmed=np.arange(len(localizer.poses)) % 2 == 0, limited="time")
     Checkpoint(step.mark, poses, None, fingerprint(localizer)).save(tmp_path / "state")
     checkpoint = Checkpoint.load(tmp_path / "state", localizer)
     assert checkpoint is not None
     assert checkpoint.mark == step.mark
-    for name in ("carried", "bad"):
+    for name in ("unconfirmed", "bad"):
         assert np.array_equal(getattr(checkpoint.poses, name), getattr(poses, name))
     assert (checkpoint.poses.limited, checkpoint.poses.outliers) == ("time", poses.outliers)
 

@@ -17,7 +17,7 @@ from tests.lidar.box_index import BoxIndex
 from tests.lidar.fuzz_drives import MODES, random_drive
 from tests.lidar.pose_fuzzer import ALL_MODES, Tally, fuzz
 
-SLOW = {"sheets"}  # the tables of a large map; bench/fuzz_poses.py has them
+SLOW = {"sections"}  # the tables of a large map; bench/fuzz_poses.py has them
 
 
 def fuzzed(mode: str, poses: int) -> Tally:
@@ -38,7 +38,7 @@ def test_no_consistent_pose_is_lost(mode: str) -> None:
 
 def without_a_box(estimate: Estimate) -> Estimate:
     poses = estimate.poses
-    return replace(estimate, poses=PoseSet(poses.boxes[:-1], poses.carried[:-1], poses.limited, bad=poses.bad[:-1]))
+    return replace(estimate, poses=PoseSet(poses.boxes[:-1], poses.unconfirmed[:-1], poses.limited, bad=poses.bad[:-1]))
 
 
 def with_one_more(estimate: Estimate) -> Estimate:

@@ -66,7 +66,7 @@ def bits(estimates: list[Estimate]) -> list[tuple[object, ...]]:
             each.hypotheses,
             each.poses.boxes.lower.tobytes(),
             each.poses.boxes.upper.tobytes(),
-            each.poses.carried.tobytes(),
+            each.poses.unconfirmed.tobytes(),
         )
         for each in estimates
     ]
@@ -141,10 +141,10 @@ def test_a_kidnapped_robot_is_lost_and_found_again(recovery: str) -> None:
     assert estimates[6].pose is None
     assert all(holds(each, pose) for each, pose in zip(estimates, path, strict=True))
     assert estimates[-1].status == "localized"
-    carried = [bool(each.poses.carried.any()) for each in estimates]
-    assert not any(carried[:6])
-    assert carried[6] == (recovery == "union")
-    assert not carried[-1]
+    unconfirmed = [bool(each.poses.unconfirmed.any()) for each in estimates]
+    assert not any(unconfirmed[:6])
+    assert unconfirmed[6] == (recovery == "union")
+    assert not unconfirmed[-1]
     assert any(each.prediction for each in estimates[6].hypotheses) == (recovery == "union")
 
 
@@ -159,7 +159,7 @@ def test_the_union_keeps_the_truth_through_a_scan_that_breaks_its_bound_and_a_re
         after = localizer.update(recorded()[7].motion, recorded()[7].scan)
         assert holds(after, walk()[7]) or not kept
         if kept:
-            assert not after.poses.carried.any()  # the next scan confirms the prediction, and empties what the false scan brought
+            assert not after.poses.unconfirmed.any()  # the next scan confirms the prediction, and empties what the false scan brought
             assert after.status == "localized"
 
 
@@ -169,7 +169,7 @@ def test_a_scan_that_fits_nowhere_leaves_the_prediction() -> None:
     blind = localizer.update(recorded()[6].motion, unexplained())
     assert blind.status == "blind"
     assert blind.pose is None
-    assert blind.poses.carried.all()
+    assert blind.poses.unconfirmed.all()
     assert all(each.prediction for each in blind.hypotheses)
     assert holds(blind, walk()[6])
     again = localizer.update(recorded()[7].motion, unexplained(1))
@@ -178,7 +178,7 @@ def test_a_scan_that_fits_nowhere_leaves_the_prediction() -> None:
     after = localizer.update(recorded()[8].motion, recorded()[8].scan)
     assert after.status == "localized"
     assert holds(after, walk()[8])
-    assert not after.poses.carried.any()
+    assert not after.poses.unconfirmed.any()
 
 
 def test_a_first_scan_that_fits_nowhere_leaves_everything() -> None:
@@ -225,7 +225,7 @@ def test_a_scan_that_rejects_the_initial_region_is_searched_over_the_whole_map()
     for estimate in (localizer.update(None, recorded()[0].scan), localizer.locate(recorded()[0].scan)):
         assert estimate.status == "lost"
         assert holds(estimate, walk()[0])
-        assert estimate.poses.carried.any()
+        assert estimate.poses.unconfirmed.any()
     assert followed(localizer, recorded()[1:6])[-1].status == "localized"
 
 

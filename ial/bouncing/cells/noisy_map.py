@@ -16,7 +16,7 @@ from scipy import ndimage
 from ial.bouncing.cells.cell_map import CellMap
 from ial.bouncing.cells.headings import Headings
 from ial.bouncing.cells.set_graph import SetGraph, rows_of
-from ial.bouncing.motion_bounds import MotionBounds
+from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.intervals.trigonometric import TWO_PI_LOWER, TWO_PI_UPPER, cos, sin
 from ial.maps.polygons.environment import Environment
@@ -47,7 +47,7 @@ class NoisyMap:
     environment: Environment
     cell: Fraction
     headings: Headings
-    bounds: MotionBounds = field(default_factory=MotionBounds)
+    bounds: ExecutionBounds = field(default_factory=ExecutionBounds)
 
     @cached_property
     def raster(self) -> Raster:

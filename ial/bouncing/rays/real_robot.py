@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ial.bouncing.motion_bounds import MotionBounds
+from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.errors import ConfigError, MapError
 from ial.maps.polygons.direction import BITS, ONE, direction
 from ial.maps.polygons.environment import Environment
@@ -78,7 +78,7 @@ class RealRobot:
         bounce_deg: Fraction,
         step_m: Fraction,
         radius_m: Fraction = Fraction(0),
-        bounds: MotionBounds = MotionBounds(),  # noqa: B008 (it is immutable)
+        bounds: ExecutionBounds = ExecutionBounds(),  # noqa: B008 (it is immutable)
         seed: int = 0,
         start: tuple[Fraction, Fraction, Fraction] | None = None,
     ) -> None:

@@ -31,14 +31,14 @@ def simulate(
     """Drive a bouncing robot through an environment, with real geometry and errors within bounds, and write down what it observes."""
     from itertools import islice
 
-    from ial.bouncing.motion_bounds import MotionBounds
+    from ial.bouncing.execution_bounds import ExecutionBounds
     from ial.bouncing.rays.real_robot import RealRobot
     from ial.bouncing.stream_file import write_stream, write_truth
     from ial.maps.polygons.environment import load_environment
 
     check_outputs([out] if truth is None else [out, truth], [environment], overwrite)
     loaded = load_environment(environment)
-    bounds = MotionBounds(number(noise_turn, "--noise-turn"), number(noise_step, "--noise-step"), noise_count)
+    bounds = ExecutionBounds(number(noise_turn, "--noise-turn"), number(noise_step, "--noise-step"), noise_count)
     place = None
     if start is not None:
         x, y, heading = (number(text, "--start") for text in start)

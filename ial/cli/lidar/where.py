@@ -37,7 +37,7 @@ def where(
     if not maps:
         raise ConfigError("no map to localize in; give --map once for each map")
     from ial.cli.lidar.config_file import resolve
-    from ial.cli.lidar.whereabouts import Lines, named
+    from ial.cli.lidar.where_report import Lines, named
     from ial.datasets.opening import open_recording
     from ial.datasets.recording import steps
     from ial.datasets.sample import sample_recording_path

@@ -1,4 +1,4 @@
-"""How many beams fail from each cell of one tile, for one interval of headings.
+"""How many beams fail from each cell of one bitmap, for one interval of headings.
 
 A cell is divided into parts, as wide as a cell of the map. For one beam the rectangles of end points of neighbouring parts are neighbours
 in the map, a cell apart, so eight of them are looked up together.
@@ -7,7 +7,7 @@ in the map, a cell apart, so eight of them are looked up together.
 import numpy as np
 
 from ial.contractors.kernels import kernel
-from ial.lidar.search.cell_bitmaps import TILE_COLUMNS, TILE_ROWS
+from ial.lidar.search.cell_bitmaps import BITMAP_COLUMNS, BITMAP_ROWS
 from ial.lidar.search.empty_rectangles import LANES, count_empty
 from ial.maps.grids.cell_index import BORDER
 
@@ -46,16 +46,16 @@ def _add_empty(flat, stride, limits, places, rows, first, groups, counts, at):  
 
 @kernel
 def list_segments(words, row0, column0, parts, segments):  # type: ignore[no-untyped-def]
-    """List the runs of parts that hold the set cells of a tile; return how many.
+    """List the runs of parts that hold the set cells of a bitmap; return how many.
 
     A row holds the table row, the first column, the number of groups of lanes, and the place of the first count.
     """
     found = at_count = 0
-    for y in range(TILE_ROWS):
+    for y in range(BITMAP_ROWS):
         word = words[y]
         if word == np.uint64(0):
             continue
-        low, high = 0, TILE_COLUMNS - 1
+        low, high = 0, BITMAP_COLUMNS - 1
         while not (word >> np.uint64(low)) & np.uint64(1):
             low += 1
         while not (word >> np.uint64(high)) & np.uint64(1):
@@ -76,7 +76,7 @@ def list_segments(words, row0, column0, parts, segments):  # type: ignore[no-unt
 
 
 @kernel
-def _trim(segments, found, most, counts):  # type: ignore[no-untyped-def]
+def _refine(segments, found, most, counts):  # type: ignore[no-untyped-def]
     """Take the groups without a promising part off both ends of the segments; return whether any group is left."""
     left = False
     for k in range(found):
@@ -101,10 +101,10 @@ def _promising(counts, at, most):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def count_tile(segments, found, row0, column0, parts, places, most, tables, counts, least):  # type: ignore[no-untyped-def]
-    """Lower `least` to the smallest count among the parts of each cell of a tile, for one interval of headings.
+def count_bitmap(segments, found, row0, column0, parts, places, most, tables, counts, least):  # type: ignore[no-untyped-def]
+    """Lower `least` to the smallest count among the parts of each cell of a bitmap, for one interval of headings.
 
-    The segments are trimmed; counts above `most` are not finished.
+    The segments are cut short; counts above `most` are not finished.
     """
     flat, domain, stride, limits = tables
     beams = len(places)
@@ -117,7 +117,7 @@ def count_tile(segments, found, row0, column0, parts, places, most, tables, coun
         for i in range(at, at + groups * LANES):
             counts[i] *= _NEVER
     start = 0
-    left = _trim(segments, found, most, counts)
+    left = _refine(segments, found, most, counts)
     while start < beams and left:
         stop = min(start + _BEAMS_PER_CHECK, beams)
         for i in range(start, stop):
@@ -126,19 +126,19 @@ def count_tile(segments, found, row0, column0, parts, places, most, tables, coun
                 if groups > 0:
                     _add_empty(flat, stride, limits, places[i], row, first, groups, counts, at)
         start = stop
-        left = _trim(segments, found, most, counts)
+        left = _refine(segments, found, most, counts)
     for k in range(found):
         row, first, groups, at = segments[k]
         y = (row - row0) // parts
         for i in range(groups * LANES):
             x = (first - column0 + i) // parts
-            if x < TILE_COLUMNS and counts[at + i] < least[y, x]:
+            if x < BITMAP_COLUMNS and counts[at + i] < least[y, x]:
                 least[y, x] = counts[at + i]
 
 
 @kernel
 def working_space(parts):  # type: ignore[no-untyped-def]
-    """Return arrays for the segments of a tile and for the counts of their parts."""
-    longest = parts * (TILE_COLUMNS * parts // (_SEGMENT * LANES) + 1) * TILE_ROWS
-    counts = np.empty(TILE_ROWS * parts * (TILE_COLUMNS * parts + LANES), dtype=np.int32)
+    """Return arrays for the segments of a bitmap and for the counts of their parts."""
+    longest = parts * (BITMAP_COLUMNS * parts // (_SEGMENT * LANES) + 1) * BITMAP_ROWS
+    counts = np.empty(BITMAP_ROWS * parts * (BITMAP_COLUMNS * parts + LANES), dtype=np.int32)
     return np.empty((longest, 4), dtype=np.int64), counts

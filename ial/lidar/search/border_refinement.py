@@ -17,7 +17,7 @@ from ial.lidar.evidence.beams import Beams
 from ial.lidar.evidence.end_points import relative_bounds
 from ial.lidar.margins import NEAR
 from ial.lidar.search.lattice import Lattice
-from ial.lidar.search.map_tables import Sheets
+from ial.lidar.search.map_tables import Sections
 from ial.lidar.search.outer_faces import outer_faces
 from ial.lidar.search.rectangle_indices import OFFSET
 from ial.lidar.search.scan_contractor import fits
@@ -115,7 +115,7 @@ def _reach(cell, outer, depth, evidence, q, grid, headings, stack, reached):  # 
 
 
 @kernel
-def _trim(start, stop, layers, cells, outer, wanted, depth, evidence, q, tables, headings, cut, kept):  # type: ignore[no-untyped-def]
+def _refine(start, stop, layers, cells, outer, wanted, depth, evidence, q, tables, headings, cut, kept):  # type: ignore[no-untyped-def]
     """Cut the wanted cells of layers start … stop - 1, and write which of them hold a piece.
 
     Parameters
@@ -146,9 +146,7 @@ def _trim(start, stop, layers, cells, outer, wanted, depth, evidence, q, tables,
                     cut[0][row, axis], cut[1][row, axis] = reached[0, axis], reached[1, axis]
 
 
-def trim(
-    cells: Boxes, lattice: Lattice, sheets: Sheets, beams: Beams, map_error_m: float, depth: int
-) -> tuple[Boxes, npt.NDArray[np.bool_]]:
+def refine_border(cells: Boxes, lattice: Lattice, sections: Sections, beams: Beams, depth: int) -> tuple[Boxes, npt.NDArray[np.bool_]]:
     """Return cells whose outer faces are moved to the outermost pieces that may hold a consistent pose, and which of them are left.
 
     A cell without such a piece is dropped, and the faces of its neighbours behind it are moved, too.
@@ -159,21 +157,19 @@ def trim(
         Different cells of the finest level of the lattice.
     lattice
         The lattice.
-    sheets
+    sections
         The tables of the map.
     beams
         The evidence of the scan, and how many of its beams may be bad.
-    map_error_m
-        How far the map may be wrong.
     depth
         How often cells are halved along each axis.
     """
     lower, upper, kept = cells.lower.copy(), cells.upper.copy(), np.ones(len(cells), dtype=np.bool_)
     order = group_rows(lower[:, 2], upper[:, 2])
     edges = np.flatnonzero(np.concatenate([[True], np.diff(lower[order, 2]) != 0.0, [True]]))
-    evidence = (beams.ends, beams.directions, beams.errors, map_error_m)
+    evidence = (beams.ends, beams.directions, beams.errors, beams.map_error_m)
     headings = (np.zeros((len(edges) - 1, 2 << depth), dtype=np.bool_), np.empty((len(edges) - 1, 2 << depth, len(beams.ends), 4)))
-    places = [(key, rows) for key, rows, _ in sheets.parts(cells)]
+    places = [(key, rows) for key, rows, _ in sections.parts(cells)]
     outer = outer_faces(cells, lattice)
     uncovered = np.asarray(outer.any(axis=(1, 2)))
     while uncovered.any():
@@ -181,10 +177,10 @@ def trim(
         for key, rows in places:
             wanted = np.zeros(len(cells), dtype=np.bool_)
             wanted[rows] = uncovered[rows]
-            occupied, domain = sheets[key].occupied, sheets[key].domain
+            occupied, domain = sections[key].occupied, sections[key].domain
             tables = (occupied.resolution, occupied.bordered, occupied.origin, (domain.table, domain.origin, domain.inverse_resolution))
             bounds = (cells.lower, cells.upper), outer, wanted, depth, evidence, beams.outliers, tables, headings, (lower, upper), kept
-            run(_trim, len(edges) - 1, (order, edges), *bounds, minimum=4)
+            run(_refine, len(edges) - 1, (order, edges), *bounds, minimum=4)
         if np.count_nonzero(kept) in (0, before):
             break
         faces = outer.copy()
@@ -194,14 +190,14 @@ def trim(
     return Boxes(lower, upper), kept
 
 
-def mend(cells: Boxes, lattice: Lattice, trimmed: Boxes, kept: npt.NDArray[np.bool_], parts: Clusters) -> npt.NDArray[np.bool_]:
-    """Give hypotheses that `trim` has torn apart their cells back, as far as these lie in the hull of what was found in them.
+def mend(cells: Boxes, lattice: Lattice, refined: Boxes, kept: npt.NDArray[np.bool_], parts: Clusters) -> npt.NDArray[np.bool_]:
+    """Give hypotheses that `refine_border` has torn apart their cells back, as far as these lie in the hull of what was found in them.
 
     Parameters
     ----------
     cells, lattice
-        As they were given to `trim`.
-    trimmed, kept
+        As they were given to `refine_border`.
+    refined, kept
         What it has returned; the boxes of hypotheses that have fallen apart are replaced.
     parts
         The clusters of the kept boxes.
@@ -218,7 +214,7 @@ def mend(cells: Boxes, lattice: Lattice, trimmed: Boxes, kept: npt.NDArray[np.bo
     torn = np.flatnonzero(np.bincount(np.unique(np.stack([labels[kept], parts.labels]), axis=1)[0]) > 1)
     if not len(torn):
         return kept
-    lower, upper, kept = trimmed.lower, trimmed.upper, kept.copy()
+    lower, upper, kept = refined.lower, refined.upper, kept.copy()
     turns = (lattice.layer(cells) - lattice.layer(whole.hulls)[labels]) % lattice.layers
     for label in torn:
         found = kept & (labels == label)

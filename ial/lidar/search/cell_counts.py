@@ -15,8 +15,8 @@ from ial.contractors.threads import run
 from ial.lidar.evidence.beams import Beams
 from ial.lidar.evidence.end_points import relative_bounds
 from ial.lidar.margins import MOST_BEAMS
-from ial.lidar.search.bitmap_counts import count_tile, list_segments, place, working_space
-from ial.lidar.search.cell_bitmaps import TILE_COLUMNS, TILE_ROWS, Tiles, WordArray
+from ial.lidar.search.bitmap_counts import count_bitmap, list_segments, place, working_space
+from ial.lidar.search.cell_bitmaps import BITMAP_COLUMNS, BITMAP_ROWS, CellBitmaps, WordArray
 from ial.lidar.search.lattice import Lattice, layer_edges
 from ial.maps.grids.cell_index import BORDER, CellIndex
 
@@ -28,11 +28,11 @@ _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 @kernel
 def _without(words, least, most, left):  # type: ignore[no-untyped-def]
-    """Write the set cells of a tile without those whose count is above `most`."""
-    for y in range(TILE_ROWS):
+    """Write the set cells of a bitmap without those whose count is above `most`."""
+    for y in range(BITMAP_ROWS):
         word = words[y]
         if word:
-            for x in range(TILE_COLUMNS):
+            for x in range(BITMAP_COLUMNS):
                 if least[y, x] > most:
                     word &= ~(np.uint64(1) << np.uint64(x))
         left[y] = word
@@ -55,7 +55,7 @@ def _place_node(node, half_layers, first, edges, evidence, map_error, grid, boun
 
 @kernel
 def _count(start, stop, runs, order, keys, words, levels, edges, parts, evidence, most, map_error, grid, kept, least):  # type: ignore[no-untyped-def]
-    """Count the failing beams for runs of tiles, which share their place and a block of 2**levels layers.
+    """Count the failing beams for runs of bitmaps, which share their place and a block of 2**levels layers.
 
     The headings of a block form a tree, numbered as a heap: node 1 is the block, nodes 2n and 2n + 1 are the halves of node n, and below
     the layers lie half layers.
@@ -69,35 +69,35 @@ def _count(start, stop, runs, order, keys, words, levels, edges, parts, evidence
     places = np.empty((4 * layers, beams, 4), dtype=np.int64)
     placed = np.zeros(4 * layers, dtype=np.bool_)
     segments, counts = working_space(parts)
-    above = np.empty((TILE_ROWS, TILE_COLUMNS), dtype=np.int16)
-    left = np.empty((levels + 2, TILE_ROWS), dtype=np.uint64)  # what the nodes above a layer have left
+    above = np.empty((BITMAP_ROWS, BITMAP_COLUMNS), dtype=np.int16)
+    left = np.empty((levels + 2, BITMAP_ROWS), dtype=np.uint64)  # what the nodes above a layer have left
     left[0, :] = ~np.uint64(0)
     nodes = np.empty(levels + 1, dtype=np.int64)  # and which nodes these are
     block = -1
     for number in range(start, stop):
-        tile = order[runs[number]]
-        if keys[tile, 0] >> levels != block:
-            block = keys[tile, 0] >> levels
+        bitmap = order[runs[number]]
+        if keys[bitmap, 0] >> levels != block:
+            block = keys[bitmap, 0] >> levels
             placed[:] = False
-        row0 = keys[tile, 1] * TILE_ROWS * parts - row_origin
-        column0 = keys[tile, 2] * TILE_COLUMNS * parts - column_origin
+        row0 = keys[bitmap, 1] * BITMAP_ROWS * parts - row_origin
+        column0 = keys[bitmap, 2] * BITMAP_COLUMNS * parts - column_origin
         nodes[:] = 0
         for at in range(runs[number], runs[number + 1]):
-            tile = order[at]
-            leaf = layers + keys[tile, 0] - (block << levels)
-            least[tile, :, :] = LARGEST_COUNT
-            kept[tile, :] = np.uint64(0)
+            bitmap = order[at]
+            leaf = layers + keys[bitmap, 0] - (block << levels)
+            least[bitmap, :, :] = LARGEST_COUNT
+            kept[bitmap, :] = np.uint64(0)
             for level in range(levels + 1):
                 node = leaf >> (levels - level)
                 if nodes[level] == node:
                     continue
                 nodes[level] = node
                 left[level + 1, :] = np.uint64(0)
-                alike = 0  # tiles below this node
+                alike = 0  # bitmaps below this node
                 for other in range(at, runs[number + 1]):
                     if (layers + keys[order[other], 0] - (block << levels)) >> (levels - level) == node:
                         alike += 1
-                        for y in range(TILE_ROWS):
+                        for y in range(BITMAP_ROWS):
                             left[level + 1, y] |= words[order[other], y] & left[level, y]
                 if alike > 1 or level == levels:
                     if not placed[node]:
@@ -105,7 +105,7 @@ def _count(start, stop, runs, order, keys, words, levels, edges, parts, evidence
                         placed[node] = True
                     found = list_segments(left[level + 1], row0, column0, parts, segments)
                     above[:, :] = LARGEST_COUNT
-                    count_tile(segments, found, row0, column0, parts, places[node], most, tables, counts, above)
+                    count_bitmap(segments, found, row0, column0, parts, places[node], most, tables, counts, above)
                     _without(left[level + 1], above, most, left[level + 1])
             found = list_segments(left[levels + 1], row0, column0, parts, segments)
             if not found:
@@ -115,8 +115,8 @@ def _count(start, stop, runs, order, keys, words, levels, edges, parts, evidence
                     _place_node(node, 2 * layers, 2 * layers * block, edges, evidence, map_error, grid, bounds, places[node])
                     placed[node] = True
                 found = list_segments(left[levels + 1], row0, column0, parts, segments)
-                count_tile(segments, found, row0, column0, parts, places[node], most, tables, counts, least[tile])
-            _without(left[levels + 1], least[tile], most, kept[tile])
+                count_bitmap(segments, found, row0, column0, parts, places[node], most, tables, counts, least[bitmap])
+            _without(left[levels + 1], least[bitmap], most, kept[bitmap])
 
 
 @functools.lru_cache(maxsize=16)
@@ -126,13 +126,13 @@ def _spread_order(beams: int) -> npt.NDArray[np.intp]:
 
 
 def count_cells(
-    tiles: Tiles, lattice: Lattice, beams: Beams, occupied: CellIndex, domain: CellIndex, map_error_m: float
+    bitmaps: CellBitmaps, lattice: Lattice, beams: Beams, occupied: CellIndex, domain: CellIndex
 ) -> tuple[WordArray, npt.NDArray[np.int16]]:
     """Return which cells may hold a pose of the domain from which not too many beams are bad, and how many are at least.
 
     Parameters
     ----------
-    tiles
+    bitmaps
         Cells of the finest level.
     lattice
         The lattice, whose parts are as wide as the cells of the map.
@@ -140,43 +140,41 @@ def count_cells(
         The evidence of the scan, and how many of its beams may be bad.
     occupied, domain
         Which cells beams may end at, and in which the robot may be.
-    map_error_m
-        How far the map may be wrong.
 
     Returns
     -------
     words
-        The cells that are left, in the form of `Tiles.words`.
+        The cells that are left, in the form of `CellBitmaps.words`.
     least
         For each cell that is left, a number that does not exceed the number of bad beams at any pose in it; int16 of shape (n, 16, 64).
     """
-    kept, least = np.empty_like(tiles.words), np.empty((len(tiles.words), TILE_ROWS, TILE_COLUMNS), dtype=np.int16)
+    kept, least = np.empty_like(bitmaps.words), np.empty((len(bitmaps.words), BITMAP_ROWS, BITMAP_COLUMNS), dtype=np.int16)
     row_origin, column_origin = occupied.origin
     # A part is a little wider than a cell, since its width has 24 bits: so much further right, at most, do the last columns of the map lie.
     # It is that of the whole map for all of its parts, so that they give the same answers. `MARGIN` covers what is rounded here.
-    farthest = max(occupied.whole) + TILE_COLUMNS * lattice.parts
+    farthest = max(occupied.whole) + BITMAP_COLUMNS * lattice.parts
     drift = farthest * max(lattice.part_m / occupied.resolution - 1.0, 0.0)
     order = _spread_order(len(beams.ends))
     evidence = (beams.ends[order], beams.directions[order], beams.errors[order])
     grid = (occupied.resolution, drift, occupied.bordered, domain.bordered, row_origin, column_origin)
     edges = layer_edges(2 * lattice.layers)
     levels = min(_LEVELS, lattice.layers.bit_length() - 1)
-    places = tiles.keys >> np.array([levels, 0, 0])
-    order = np.lexsort((tiles.keys[:, 0], *places.T[::-1]))
+    places = bitmaps.keys >> np.array([levels, 0, 0])
+    order = np.lexsort((bitmaps.keys[:, 0], *places.T[::-1]))
     runs = np.flatnonzero(np.append(True, (np.diff(places[order], axis=0) != 0).any(axis=1))[: len(order)])
     run(
         _count,
         len(runs),
         np.append(runs, len(order)),
         order,
-        tiles.keys,
-        tiles.words,
+        bitmaps.keys,
+        bitmaps.words,
         levels,
         edges,
         lattice.parts,
         evidence,
         beams.outliers,
-        map_error_m,
+        beams.map_error_m,
         grid,
         kept,
         least,

@@ -13,9 +13,9 @@ from ial.contractors.kernels import kernel
 from ial.contractors.margins import ABOVE
 from ial.errors import ConfigError
 from ial.lidar.margins import FITTING, MOST_PARTS
-from ial.lidar.search.cell_bitmaps import IntArray, Tiles, filled_tiles, tiles_met
+from ial.lidar.search.cell_bitmaps import CellBitmaps, IntArray, bitmaps_met, filled_bitmaps
 
-_LARGEST_WORK = 1 << 22  # pairs of a box and a tile; beyond, a coarser lattice is taken
+_LARGEST_WORK = 1 << 22  # pairs of a box and a bitmap; beyond, a coarser lattice is taken
 _TOO_MANY = 2.0  # times as many cells as there may be
 _WORK_PER_CELL = 32  # the same for each cell that is wanted at most
 
@@ -76,22 +76,22 @@ class Lattice:
             step, edges = self.position_m * 2.0**level, layer_edges(max(1, self.layers >> level))
             if volume > _TOO_MANY * max_cells * step**2 * 2.0 * math.pi / (len(edges) - 1):
                 continue
-            tiles = _few_tiles(boxes, step, edges, max_cells)
-            if tiles is not None:
-                return tiles.boxes(step, edges)
-        return filled_tiles(_ranges(boxes, step, edges), len(edges) - 1).boxes(step, edges)
+            bitmaps = _few_bitmaps(boxes, step, edges, max_cells)
+            if bitmaps is not None:
+                return bitmaps.boxes(step, edges)
+        return filled_bitmaps(_ranges(boxes, step, edges), len(edges) - 1).boxes(step, edges)
 
-    def tiles(self, boxes: Boxes) -> Tiles:
+    def bitmaps(self, boxes: Boxes) -> CellBitmaps:
         """Return the cells of the finest level that together cover all boxes."""
-        return filled_tiles(_ranges(boxes, self.position_m, layer_edges(self.layers)), self.layers)
+        return filled_bitmaps(_ranges(boxes, self.position_m, layer_edges(self.layers)), self.layers)
 
-    def few_tiles(self, boxes: Boxes, max_cells: int) -> Tiles | None:
+    def few_bitmaps(self, boxes: Boxes, max_cells: int) -> CellBitmaps | None:
         """Return the same where they are at most `max_cells`, else None."""
-        return _few_tiles(boxes, self.position_m, layer_edges(self.layers), max_cells)
+        return _few_bitmaps(boxes, self.position_m, layer_edges(self.layers), max_cells)
 
-    def boxes(self, tiles: Tiles) -> Boxes:
+    def boxes(self, bitmaps: CellBitmaps) -> Boxes:
         """Return cells of the finest level as boxes."""
-        return tiles.boxes(self.position_m, layer_edges(self.layers))
+        return bitmaps.boxes(self.position_m, layer_edges(self.layers))
 
 
 def divide(resolution: float, position_m: float) -> tuple[int, int]:
@@ -180,11 +180,11 @@ def _ranges(boxes: Boxes, step: float, edges: FloatArray) -> IntArray:
     return ranges
 
 
-def _few_tiles(boxes: Boxes, step: float, edges: FloatArray, max_cells: int) -> Tiles | None:
+def _few_bitmaps(boxes: Boxes, step: float, edges: FloatArray, max_cells: int) -> CellBitmaps | None:
     ranges = _ranges(boxes, step, edges)
     layers = len(edges) - 1
     largest = (ranges[:, 1::2] - ranges[:, ::2] + 1).prod(axis=1).max(initial=0)
-    if largest > max(max_cells, 8) or tiles_met(ranges, layers) > min(_LARGEST_WORK, _WORK_PER_CELL * max_cells):
+    if largest > max(max_cells, 8) or bitmaps_met(ranges, layers) > min(_LARGEST_WORK, _WORK_PER_CELL * max_cells):
         return None
-    tiles = filled_tiles(ranges, layers)
-    return tiles if len(tiles) <= max_cells else None
+    bitmaps = filled_bitmaps(ranges, layers)
+    return bitmaps if len(bitmaps) <= max_cells else None

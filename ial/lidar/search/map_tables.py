@@ -1,7 +1,8 @@
-"""`Sheets`: the tables of a map, which a large map has in parts, each made when it is first needed.
+"""`Sections`: the tables of a map, which a large map has in parts, each made when it is first needed.
 
-A sheet answers for the poses in a square of the map, its *core*. Its tables reach farther, so that the end of every beam from there lies in
-them. A robot that is tracked through a campus needs the one or two sheets around it; a search over all of it makes them one after another.
+A section answers for the poses in a square of the map, its *core*. Its tables reach farther, so that the end of every beam from there
+lies in them. A robot that is tracked through a campus needs the one or two sections around it; a search over all of it makes them one
+after another.
 """
 
 import math
@@ -21,23 +22,23 @@ from ial.errors import ConfigError, MapError
 from ial.lidar.evidence.beams import Beams
 from ial.lidar.margins import MOST_CELLS
 from ial.lidar.search.bit_columns import BitColumns
-from ial.lidar.search.cell_bitmaps import TILE_COLUMNS
+from ial.lidar.search.cell_bitmaps import BITMAP_COLUMNS
 from ial.lidar.search.lattice import Lattice
 from ial.maps.grids.cell_index import CellIndex
 from ial.maps.grids.occupancy_grid import LARGEST_AREA, LARGEST_SIDE, OCCUPIED, OccupancyGrid
 
-_ONE_SHEET = 1 << 26  # cells: a map with as many or fewer is one sheet (400 × 400 m at 5 cm), unless one of its sides is too long
+_ONE_SECTION = 1 << 26  # cells: a map with as many or fewer is one section (400 × 400 m at 5 cm), unless one of its sides is too long
 _SIDE = 1 << 11  # cells along a side of a core, in larger maps
-_KEPT = 1 << 26  # cells of the sheets that are kept, and at least
-_FEWEST_KEPT = 4  # sheets, which meet in a corner
-_AROUND = 2  # cells of the map around what a sheet must hold: one that is cut by its border, and one for what is rounded
+_KEPT = 1 << 26  # cells of the sections that are kept, and at least
+_FEWEST_KEPT = 4  # sections, which meet in a corner
+_AROUND = 2  # cells of the map around what a section must hold: one that is cut by its border, and one for what is rounded
 
 MaskArray = npt.NDArray[np.bool_]
 Key = tuple[int, int]
 
 
 @dataclass(frozen=True, eq=False)
-class Sheet:
+class MapTables:
     """The tables of a part of the map, in cells that are split so that a cell of the lattice consists of at least two along an axis.
 
     Parameters
@@ -55,7 +56,7 @@ class Sheet:
     bits: BitColumns | None
 
 
-class Sheets:
+class Sections:
     """The tables of a map.
 
     Parameters
@@ -67,7 +68,7 @@ class Sheets:
     split
         Into how many parts along an axis the cells of the map are divided.
     lattice
-        The cells of the answers: the cores of the sheets consist of them.
+        The cells of the answers: the cores of the sections consist of them.
     radius_m
         The base is never nearer to an occupied cell than this.
     free_space
@@ -78,7 +79,7 @@ class Sheets:
     Raises
     ------
     ConfigError
-        If the map, or the sheet around a robot of that radius, consists of more parts than can be counted.
+        If the map, or the section around a robot of that radius, consists of more parts than can be counted.
     MapError
         If the robot fits nowhere.
     """
@@ -100,12 +101,12 @@ class Sheets:
         self._radius_m = radius_m
         self._free_space = free_space
         self._position_m = position_m or lattice.position_m
-        self._made: OrderedDict[Key, Sheet] = OrderedDict()
+        self._made: OrderedDict[Key, MapTables] = OrderedDict()
         self.resolution = grid.resolution / split
         self._margin = math.ceil(radius_m / grid.resolution * ABOVE)  # cells of the map around a core
-        self._cells = 1 << max(int(math.log2(_SIDE / lattice.parts)), int(math.log2(TILE_COLUMNS)))
+        self._cells = 1 << max(int(math.log2(_SIDE / lattice.parts)), int(math.log2(BITMAP_COLUMNS)))
         self._side_m = self._cells * lattice.position_m
-        one = grid.rows * grid.columns * split**2 <= _ONE_SHEET and split * max(grid.rows, grid.columns) <= LARGEST_SIDE
+        one = grid.rows * grid.columns * split**2 <= _ONE_SECTION and split * max(grid.rows, grid.columns) <= LARGEST_SIDE
         self._rows, self._columns = (1, 1) if one else (math.ceil(size / self._side_m * ABOVE) for size in (grid.height_m, grid.width_m))
         if not self._countable(split, self._margin):
             self._refuse("there are too many of these to be counted", self._margin)
@@ -115,7 +116,7 @@ class Sheets:
 
     @property
     def one(self) -> bool:
-        """Whether the whole map is one sheet."""
+        """Whether the whole map is one section."""
         return self._rows == self._columns == 1
 
     @property
@@ -125,29 +126,29 @@ class Sheets:
             return self._root
         return self._cores(*np.divmod(np.arange(self._rows * self._columns), self._columns))
 
-    def reach(self, beams: Beams, map_error_m: float) -> None:
-        """See to it that the tables of every sheet hold all obstacles that the beams of a scan can end at or be blocked by.
+    def reach(self, beams: Beams) -> None:
+        """See to it that the tables of every section hold all obstacles that the beams of a scan can end at or be blocked by.
 
         Raises
         ------
         ConfigError
-            If they reach so far that a sheet would consist of too many parts.
+            If they reach so far that a section would consist of too many parts.
         """
         if self.one:
             return
-        far = (np.hypot(*beams.ends.T) + beams.errors.sum(axis=1)).max(initial=0.0) + map_error_m
+        far = (np.hypot(*beams.ends.T) + beams.errors.sum(axis=1)).max(initial=0.0) + beams.map_error_m
         far = max(far, 0.0 if beams.rays is None else beams.rays.reach_m)
         needed = math.ceil(far / self._grid.resolution * ABOVE)
         if needed <= self._margin:
             return
-        wider = 1 << (needed - 1).bit_length()  # in a few steps at most, since the sheets are made anew
+        wider = 1 << (needed - 1).bit_length()  # in a few steps at most, since the sections are made anew
         self._margin = wider if self._countable(self._split, wider) else needed
         if not self._countable(self._split, needed):
             self._refuse(f"beams of this scan reach {far:.3g} m, and all that is nearer is looked up at once", needed)
         self._made.clear()
 
     def _countable(self, split: int, margin: int) -> bool:
-        """Return whether the tables of the map, and those of a sheet with a margin, have no more cells than can be counted.
+        """Return whether the tables of the map, and those of a section with a margin, have no more cells than can be counted.
 
         It is a question about the map's cells, each split into so many parts along an axis; they are always countable unsplit.
         """
@@ -168,7 +169,7 @@ class Sheets:
         )
 
     def parts(self, boxes: Boxes) -> Iterator[tuple[Key, npt.NDArray[np.intp], Boxes]]:
-        """Yield the key of each sheet whose core some boxes meet, the rows of these, and the boxes cut to the core.
+        """Yield the key of each section whose core some boxes meet, the rows of these, and the boxes cut to the core.
 
         Parameters
         ----------
@@ -206,14 +207,14 @@ class Sheets:
                 yield key, chosen[inside], cut[inside]
 
     def _cores(self, rows: npt.NDArray[np.int64], columns: npt.NDArray[np.int64]) -> Boxes:
-        """Return the poses in the cores of sheets, whose bounds are exact."""
+        """Return the poses in the cores of sections, whose bounds are exact."""
         turn, side = np.full(len(rows), PI_UPPER), self._side_m
         return Boxes(
             np.stack([columns * side, rows * side, -turn], axis=1), np.stack([(columns + 1) * side, (rows + 1) * side, turn], axis=1)
         )
 
     def _window(self, key: Key) -> tuple[slice, slice]:
-        """Return which cells of the map the tables of a sheet hold."""
+        """Return which cells of the map the tables of a section hold."""
         if self.one:
             return slice(0, self._grid.rows), slice(0, self._grid.columns)
         margin = self._margin + _AROUND
@@ -223,21 +224,21 @@ class Sheets:
             window.append(slice(max(0, math.floor(first) - margin), min(cells, math.ceil(behind) + margin)))
         return window[0], window[1]
 
-    def __getitem__(self, key: Key) -> Sheet:
-        """Return a sheet; it is made if need be, and others may be forgotten."""
+    def __getitem__(self, key: Key) -> MapTables:
+        """Return a section; it is made if need be, and others may be forgotten."""
         if key not in self._made:
             self._made[key] = self._make(*self._window(key))
-            while len(self._made) > _FEWEST_KEPT and sum(sheet.occupied.table.size for sheet in self._made.values()) > _KEPT:
+            while len(self._made) > _FEWEST_KEPT and sum(tables.occupied.table.size for tables in self._made.values()) > _KEPT:
                 self._made.popitem(last=False)
         self._made.move_to_end(key)
         return self._made[key]
 
-    def _make(self, rows: slice, columns: slice) -> Sheet:
+    def _make(self, rows: slice, columns: slice) -> MapTables:
         origin = (rows.start * self._split, columns.start * self._split)
         occupied = self._divided(self._grid.cells[rows, columns] == OCCUPIED)
         domain = self._divided(self._roomy(rows, columns))
         whole = (self._grid.rows * self._split, self._grid.columns * self._split)
-        return Sheet(
+        return MapTables(
             CellIndex(occupied, self.resolution, origin=origin, whole=whole),
             CellIndex(domain, self.resolution, compact=True, origin=origin, whole=whole),
             BitColumns(occupied) if self._free_space else None,

@@ -4,7 +4,7 @@ import numpy as np
 
 from ial.contractors.combinators.relaxation import covered
 from ial.contractors.kernels import kernel
-from ial.lidar.search.rectangle_indices import OFFSET, corners
+from ial.lidar.search.rectangle_indices import OFFSET, rectangle_indices
 from ial.maps.grids.cell_index import columns_with_cells, count, rows_with_cells
 
 
@@ -34,7 +34,9 @@ def narrow(xl, yl, xu, yu, bounds, q, table, low, high):  # type: ignore[no-unty
     columns = np.int32(table.shape[1] - 1)
     kept = 0
     for i in range(beams):
-        left, below, right, above = corners(bounds, i, xl + OFFSET, yl + OFFSET, xu + (OFFSET + 1.0), yu + (OFFSET + 1.0), columns, rows)
+        left, below, right, above = rectangle_indices(
+            bounds, i, xl + OFFSET, yl + OFFSET, xu + (OFFSET + 1.0), yu + (OFFSET + 1.0), columns, rows
+        )
         if left >= right or below >= above or count(table, below, above, left, right) == 0:
             continue
         first, behind = columns_with_cells(table, below, above, left, right)

@@ -39,7 +39,7 @@ class Counted(Protocol):
 Poses = TypeVar("Poses", bound=Counted)
 
 
-def allowing(reading: Beams, states: Poses, search: Callable[[Beams], Poses]) -> Poses:
+def within_budget(reading: Beams, states: Poses, search: Callable[[Beams], Poses]) -> Poses:
     """Return what a search leaves, with as many bad beams as the reading allows.
 
     Where the reading leaves the number open it is the smallest one that leaves a pose, plus the margin. The search is repeated with more

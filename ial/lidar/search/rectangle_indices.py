@@ -18,7 +18,7 @@ _DOUBLE, _INT32, _INT64 = ir.DoubleType(), ir.IntType(32), ir.IntType(64)
 
 
 @intrinsic
-def corners(typingctx, bounds, i, xl, yl, xu, yu, columns, rows):  # type: ignore[no-untyped-def]
+def rectangle_indices(typingctx, bounds, i, xl, yl, xu, yu, columns, rows):  # type: ignore[no-untyped-def]
     """Return (left, below, right, above): table indices of the rectangle ``bounds[i] + (xl, yl, xu, yu)``, clamped to the table.
 
     Parameters

@@ -14,7 +14,7 @@ from ial.lidar.evidence.beams import Beams
 from ial.lidar.evidence.end_points import relative_bounds
 from ial.lidar.margins import NEAR
 from ial.lidar.search.narrowing import narrow
-from ial.lidar.search.rectangle_indices import OFFSET, corners
+from ial.lidar.search.rectangle_indices import OFFSET, rectangle_indices
 from ial.maps.grids.cell_index import BORDER, CellIndex
 
 
@@ -29,7 +29,7 @@ def fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit, order
     failed = 0
     for at in range(beams):
         i = order[at]
-        left, below, right, above = corners(bounds, i, xl, yl, xu, yu, column_limit, row_limit)
+        left, below, right, above = rectangle_indices(bounds, i, xl, yl, xu, yu, column_limit, row_limit)
         low = np.uint64(below) * stride
         high = np.uint64(above) * stride
         near = np.uint64(left)
@@ -98,8 +98,9 @@ def _narrow(start, stop, order, lower, upper, ends, directions, errors, q, map_e
 class ScanContractor:
     """Poses (x, y, θ) of the robot, in the grid's frame, from which at most q of the used beams are bad.
 
-    A beam is good at a pose if some point of its error region lies within `map_error_m` of a closed occupied cell. Beams without return are
-    among those that may be bad, and are taken to be good: with as many bad ones allowed as there are hits, a box is returned as it is.
+    A beam is good at a pose if some point of its error region lies within `Beams.map_error_m` of a closed occupied cell. Beams without
+    return are among those that may be bad, and are taken to be good: with as many bad ones allowed as there are hits, a box is returned as
+    it is.
 
     Parameters
     ----------
@@ -107,18 +108,15 @@ class ScanContractor:
         The evidence of the scan.
     occupied
         The occupied cells.
-    map_error_m
-        How far the map may be wrong.
 
     Source: Guyonneau et al. 2014, section 3.2, eq. 6, as a test with relaxed intersection over all beams.
     """
 
     dimension = 3
 
-    def __init__(self, beams: Beams, occupied: CellIndex, map_error_m: float) -> None:
+    def __init__(self, beams: Beams, occupied: CellIndex) -> None:
         self.beams = beams
         self.occupied = occupied
-        self.map_error_m = map_error_m
         self._most = min(beams.outliers, len(beams.ends))  # of the beams that end somewhere; those without return say nothing here
 
     def fits(self, boxes: Boxes) -> npt.NDArray[np.bool_]:
@@ -161,4 +159,4 @@ class ScanContractor:
     @property
     def _evidence(self) -> tuple[Any, ...]:
         beams = self.beams
-        return beams.ends, beams.directions, beams.errors, self._most, self.map_error_m
+        return beams.ends, beams.directions, beams.errors, self._most, beams.map_error_m

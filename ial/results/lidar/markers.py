@@ -9,7 +9,8 @@ import numpy as np
 from ial.contractors.boxes import Boxes, FloatArray
 from ial.datasets.bag_writer import BagWriter
 from ial.datasets.ros_messages import point, pose_message, vector
-from ial.lidar.estimate import Estimate, Hypothesis
+from ial.lidar.estimate import Estimate
+from ial.lidar.hypothesis import Hypothesis
 from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
 from ial.results.palette import PREDICTION, STATUS_COLOURS, rgb
@@ -33,12 +34,12 @@ def enclosure_markers(bag: BagWriter, stamp_ns: int, frame: str, grid: Occupancy
     poses = estimate.poses
     header = bag.header(stamp_ns, frame)
     markers = []
-    for name, rows, paint in (("boxes", ~poses.carried, colour), ("prediction", poses.carried, PREDICTION)):
+    for name, rows, paint in (("boxes", ~poses.unconfirmed, colour), ("prediction", poses.unconfirmed, PREDICTION)):
         corners = _triangles(rectangles(poses.boxes[rows], _RECTANGLES))
         markers.append(_marker(bag, header, name, _TRIANGLES, 1.0, grid.origin, rgb(paint), 0.45, corners))
-    for name, carried in (("hypotheses", False), ("predicted hypotheses", True)):
-        ends = _outlines(each for each in estimate.hypotheses if each.prediction is carried)
-        markers.append(_marker(bag, header, name, _LINES, _EDGE_M, _MAP, rgb(PREDICTION if carried else colour), 1.0, ends))
+    for name, unconfirmed in (("hypotheses", False), ("predicted hypotheses", True)):
+        ends = _outlines(each for each in estimate.hypotheses if each.prediction is unconfirmed)
+        markers.append(_marker(bag, header, name, _LINES, _EDGE_M, _MAP, rgb(PREDICTION if unconfirmed else colour), 1.0, ends))
     return bag.message("visualization_msgs/msg/MarkerArray", markers=markers)
 
 

@@ -1,4 +1,4 @@
-"""The parts of a picture: the walk, the first step, one scan on the walls, and the status over time."""
+"""The parts of a picture: the track, the first step, one scan on the walls, and the status over time."""
 
 import math
 from collections.abc import Sequence
@@ -13,13 +13,13 @@ from matplotlib.patches import Patch
 from ial.contractors.boxes import Boxes
 from ial.datasets.recording import Step
 from ial.datasets.scan import BeamClass
-from ial.lidar.estimate import Hypothesis
+from ial.lidar.hypothesis import Hypothesis
 from ial.maps.grids.cell_index import CellIndex
 from ial.maps.grids.occupancy_grid import OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 from ial.results.lidar.enclosures import Enclosure
 from ial.results.lidar.map_layer import MapLayer, View
-from ial.results.lidar.track import Walk
+from ial.results.lidar.track import Track
 from ial.results.palette import EDGE, FOUND, OFF_WALL, ON_WALL, PATH, PREDICTION, STATUS_COLOURS, TRUTH, VANISHING
 
 _HULLS = 50_000  # more are thinned out evenly
@@ -33,33 +33,33 @@ FloatArray = npt.NDArray[np.float64]
 Key = Line2D | Patch | PathCollection
 
 
-def draw_walk(axes: Axes, layer: MapLayer, walk: Walk, truth: Sequence[Pose]) -> None:
+def draw_track(axes: Axes, layer: MapLayer, track: Track, truth: Sequence[Pose]) -> None:
     """Draw the hull of every hypothesis of every scan, the path of the localized robot, and the reference if there is one."""
     layer.draw(axes)
-    carried = [each for scan in walk.scans for each in scan.hypotheses if each.prediction]
-    found = [(scan.status, each) for scan in walk.scans for each in scan.hypotheses if not each.prediction]
-    _draw_hulls(axes, carried, [PREDICTION] * len(carried), alpha=0.0, zorder=1)
+    unconfirmed = [each for scan in track.scans for each in scan.hypotheses if each.prediction]
+    found = [(scan.status, each) for scan in track.scans for each in scan.hypotheses if not each.prediction]
+    _draw_hulls(axes, unconfirmed, [PREDICTION] * len(unconfirmed), alpha=0.0, zorder=1)
     for certain in (False, True):  # the certain ones above all others
         rows = [(status, each) for status, each in found if (status == "localized") is certain]
         colours = [STATUS_COLOURS[status] for status, _ in rows]
         _draw_hulls(axes, [each for _, each in rows], colours, alpha=0.30 if certain else 0.16, zorder=2 + certain)
-    pieces = _pieces(walk.scans)
+    pieces = _pieces(track.scans)
     axes.add_collection(LineCollection(pieces, colors="white", linewidths=3.2, zorder=5), autolim=False)
     axes.add_collection(LineCollection(pieces, colors=PATH, linewidths=1.6, zorder=6), autolim=False)
     if truth:
         axes.plot([pose.x for pose in truth], [pose.y for pose in truth], color=TRUTH, linewidth=1.1, linestyle=_DASHES, zorder=7)
-    vanishing = [each.centre for scan in walk.scans if scan.vanishing for each in scan.hypotheses]
+    vanishing = [each.centre for scan in track.scans if scan.vanishing for each in scan.hypotheses]
     axes.add_line(_crosses([pose.x for pose in vanishing], [pose.y for pose in vanishing]))
-    last = next((scan.pose for scan in reversed(walk.scans) if scan.pose is not None), None)
+    last = next((scan.pose for scan in reversed(track.scans) if scan.pose is not None), None)
     if last is not None:
         _draw_robot(axes, last)
     statuses = {status for status, _ in found}
     keys: list[Key] = [Line2D([], [], color=PATH, linewidth=1.6, label="path")] if pieces else []
     keys += [Line2D([], [], color=TRUTH, linestyle=_DASHES, label="reference")] if truth else []
     keys += [Patch(color=colour, alpha=0.6, label=name) for name, colour in STATUS_COLOURS.items() if name in statuses]
-    keys += [Patch(facecolor="none", edgecolor=PREDICTION, label="rejected prediction")] if carried else []
+    keys += [Patch(facecolor="none", edgecolor=PREDICTION, label="rejected prediction")] if unconfirmed else []
     keys += [_crosses([], [], "vanishing")] if vanishing else []
-    _finish(axes, f"enclosures of {len(walk)} scans", keys)
+    _finish(axes, f"enclosures of {len(track)} scans", keys)
 
 
 def _draw_hulls(axes: Axes, hypotheses: Sequence[Hypothesis], colours: Sequence[str], alpha: float, zorder: int) -> None:
@@ -73,10 +73,10 @@ def _draw_hulls(axes: Axes, hypotheses: Sequence[Hypothesis], colours: Sequence[
     axes.add_collection(edges, autolim=False)
 
 
-def _pieces(walk: Sequence[Enclosure]) -> list[FloatArray]:
+def _pieces(track: Sequence[Enclosure]) -> list[FloatArray]:
     """Return the path, in pieces between which the robot was not localized."""
     pieces: list[list[tuple[float, float]]] = [[]]
-    for scan in walk:
+    for scan in track:
         if scan.pose is None:
             pieces.append([])
         else:
@@ -84,11 +84,11 @@ def _pieces(walk: Sequence[Enclosure]) -> list[FloatArray]:
     return [np.array(piece if len(piece) > 1 else piece * 2) for piece in pieces if piece]
 
 
-def draw_first(axes: Axes, layer: MapLayer, boxes: Boxes, walk: Walk) -> None:
+def draw_first(axes: Axes, layer: MapLayer, boxes: Boxes, track: Track) -> None:
     """Draw the answer to the first scan, which is a search of the whole map unless the start was given."""
     layer.draw(axes)
     layer.draw_boxes(axes, boxes, FOUND)
-    hypotheses = walk.scans[0].hypotheses if walk else ()
+    hypotheses = track.scans[0].hypotheses if track else ()
     if len(hypotheses) <= _RINGS:
         for pose in (each.centre for each in hypotheses):
             axes.plot([pose.x], [pose.y], "o", markersize=13, fillstyle="none", color=FOUND, markeredgewidth=0.9, zorder=4)
@@ -142,9 +142,9 @@ def _around(points: FloatArray, pose: Pose) -> View:
     return float(low[0]) - margin, float(high[0]) + margin, float(low[1]) - margin, float(high[1]) + margin
 
 
-def draw_status(axes: Axes, walk: Walk) -> None:
+def draw_status(axes: Axes, track: Track) -> None:
     """Draw how many hypotheses each scan left, in the colour of its status."""
-    scans = walk.scans
+    scans = track.scans
     group = max(1, math.ceil(len(scans) / _BAR_PIXELS))
     bars = [max(scans[at : at + group], key=lambda scan: len(scan.hypotheses)) for at in range(0, len(scans), group)]
     index = np.array([bar.index for bar in bars], dtype=np.float64)
@@ -156,9 +156,9 @@ def draw_status(axes: Axes, walk: Walk) -> None:
     axes.set(yscale="log", ylim=(_LOW, max(10.0, 1.6 * count.max(initial=1.0))), xlabel="scan")
     axes.margins(x=0.004)
     axes.yaxis.set_major_formatter("{x:g}")
-    names = sorted(walk.statuses, key=list(STATUS_COLOURS).index)
-    keys: list[Key] = [Patch(color=STATUS_COLOURS[name], label=f"{name} ({walk.statuses[name]})") for name in names]
-    keys += [_crosses([], [], f"vanishing ({walk.vanishing})")] if vanishing else []
+    names = sorted(track.statuses, key=list(STATUS_COLOURS).index)
+    keys: list[Key] = [Patch(color=STATUS_COLOURS[name], label=f"{name} ({track.statuses[name]})") for name in names]
+    keys += [_crosses([], [], f"vanishing ({track.vanishing})")] if vanishing else []
     axes.spines[["top", "right"]].set_visible(False)
     axes.tick_params(labelsize=8, colors="#444444")
     axes.set_title("hypotheses left by each scan", loc="left", fontsize=10)

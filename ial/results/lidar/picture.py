@@ -16,9 +16,9 @@ from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
 from ial.results.lidar.enclosures import Enclosure
 from ial.results.lidar.map_layer import MapLayer
-from ial.results.lidar.panels import draw_first, draw_scan, draw_status, draw_walk
+from ial.results.lidar.panels import draw_first, draw_scan, draw_status, draw_track
 from ial.results.lidar.thinning import thinned
-from ial.results.lidar.track import Walk
+from ial.results.lidar.track import Track
 from ial.results.lidar.wording import pose_text
 
 _DPI = 120
@@ -34,7 +34,7 @@ Box = tuple[float, float, float, float]
 
 @dataclass(frozen=True)
 class _Page:
-    """Where the walk, the first step, the scan and the status stand: left, top, width and height in inches from the upper left corner."""
+    """Where the track, the first step, the scan and the status stand: left, top, width and height in inches from the upper left corner."""
 
     height: float
     boxes: tuple[Box, Box, Box, Box]
@@ -46,14 +46,14 @@ class _Page:
 
 
 def _across(layer: MapLayer) -> _Page:
-    """Return the page for a map that is much wider than high: the walk across it, the others below."""
+    """Return the page for a map that is much wider than high: the track across it, the others below."""
     left, right, bottom, top = layer.view
-    walk = min(max(_INNER_IN * (top - bottom) / (right - left), 2.2), 5.5)
+    track = min(max(_INNER_IN * (top - bottom) / (right - left), 2.2), 5.5)
     below = 3.0
     half = 0.5 * (_INNER_IN - _GAP_IN)
-    second, third = _TOP_IN + walk + _GAP_IN, _TOP_IN + walk + below + 2.0 * _GAP_IN
+    second, third = _TOP_IN + track + _GAP_IN, _TOP_IN + track + below + 2.0 * _GAP_IN
     boxes = (
-        (_LEFT_IN, _TOP_IN, _INNER_IN, walk),
+        (_LEFT_IN, _TOP_IN, _INNER_IN, track),
         (_LEFT_IN, second, half, below),
         (_LEFT_IN + half + _GAP_IN, second, half, below),
         (_LEFT_IN, third, _INNER_IN, _STATUS_IN),
@@ -62,12 +62,12 @@ def _across(layer: MapLayer) -> _Page:
 
 
 def _upright() -> _Page:
-    """Return the page for any other map: the walk at the left, the first step and the scan at its side."""
-    walk, high = 7.8, 7.6
-    half, side = 0.5 * (high - _GAP_IN), _LEFT_IN + walk + _GAP_IN
+    """Return the page for any other map: the track at the left, the first step and the scan at its side."""
+    track, high = 7.8, 7.6
+    half, side = 0.5 * (high - _GAP_IN), _LEFT_IN + track + _GAP_IN
     third = _TOP_IN + high + _GAP_IN
     boxes = (
-        (_LEFT_IN, _TOP_IN, walk, high),
+        (_LEFT_IN, _TOP_IN, track, high),
         (side, _TOP_IN, _WIDTH_IN - _RIGHT_IN - side, half),
         (side, _TOP_IN + half + _GAP_IN, _WIDTH_IN - _RIGHT_IN - side, half),
         (_LEFT_IN, third, _INNER_IN, _STATUS_IN),
@@ -107,14 +107,14 @@ class Picture(AbstractContextManager["Picture"]):
         self._name = name
         self._walls_m = walls_m
         self._reference = reference
-        self._walk = Walk()
+        self._track = Track()
         self._truth: list[Pose] = []
         self._first: Boxes | None = None
         self._scan: tuple[Step, Pose] | None = None
 
     def add(self, step: Step, estimate: Estimate) -> None:
         """Remember what will be drawn of one scan."""
-        self._walk.add(Enclosure.of(step, estimate))
+        self._track.add(Enclosure.of(step, estimate))
         if self._first is None:
             self._first = estimate.poses.boxes
         if estimate.pose is not None:
@@ -135,11 +135,11 @@ class Picture(AbstractContextManager["Picture"]):
         page = _across(layer) if (top - bottom) / (right - left) < _WIDE else _upright()
         figure = Figure(figsize=(_WIDTH_IN, page.height), facecolor="white")
         FigureCanvasAgg(figure)
-        walk, first, scan, status = (figure.add_axes(page.share(box)) for box in page.boxes)
-        draw_walk(walk, layer, self._walk, self._truth)
-        draw_first(first, layer, self._first or Boxes.none(3), self._walk)
+        track, first, scan, status = (figure.add_axes(page.share(box)) for box in page.boxes)
+        draw_track(track, layer, self._track, self._truth)
+        draw_first(first, layer, self._first or Boxes.none(3), self._track)
         draw_scan(scan, layer, self._grid, self._scan, self._walls_m)
-        draw_status(status, self._walk)
+        draw_status(status, self._track)
         above = 1.0 - 0.15 / page.height
         figure.text(_LEFT_IN / _WIDTH_IN, above, self._title(), ha="left", va="top", fontsize=15, fontweight="bold")
         figure.text(1.0 - _RIGHT_IN / _WIDTH_IN, above, self._outcome(), ha="right", va="top", fontsize=11)
@@ -151,7 +151,7 @@ class Picture(AbstractContextManager["Picture"]):
 
     def _outcome(self) -> str:
         """Return in words where the run ended."""
-        last = next((each for each in reversed(self._walk.scans) if each.pose is not None), None)
+        last = next((each for each in reversed(self._track.scans) if each.pose is not None), None)
         if last is None or last.pose is None:
-            return f"never localized in {len(self._walk)} scans"
+            return f"never localized in {len(self._track)} scans"
         return f"scan {last.index}: {pose_text(last.pose, last.hypotheses[0])}"

@@ -1,4 +1,4 @@
-"""`Walk`: the enclosures of a run, thinned out where it is long, so that hours of scans take no more memory than many minutes."""
+"""`Track`: the enclosures of a run, thinned out where it is long, so that hours of scans take no more memory than many minutes."""
 
 from collections import Counter
 
@@ -7,7 +7,7 @@ from ial.results.lidar.enclosures import Enclosure
 from ial.results.lidar.thinning import thinned
 
 
-class Walk:
+class Track:
     """What a picture shows of a run.
 
     Attributes

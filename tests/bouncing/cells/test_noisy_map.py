@@ -11,15 +11,15 @@ from ial.bouncing.cells.model import BouncingModel
 from ial.bouncing.cells.noisy_map import NoisyMap
 from ial.bouncing.cells.noisy_model import NoisyModel
 from ial.bouncing.cells.set_graph import SetGraph, rows_of
-from ial.bouncing.motion_bounds import MotionBounds
+from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.rays.real_robot import RealPose, RealRobot
 from ial.errors import FilterError
 from ial.membership import Rejection, SetMembershipFilter
 from tests.bouncing.rays.test_real_robot import PILLAR, ROOM
 from tests.bouncing.truth import random_environment
 
-NONE = MotionBounds()
-SOME = MotionBounds(Fraction(5), Fraction(1, 20), 1)
+NONE = ExecutionBounds()
+SOME = ExecutionBounds(Fraction(5), Fraction(1, 20), 1)
 
 
 def standing(made: NoisyMap, pose: RealPose) -> list[int]:
@@ -28,7 +28,7 @@ def standing(made: NoisyMap, pose: RealPose) -> list[int]:
     return [each for dx in some for dy in some for each in made.vertices(pose.x_m + dx, pose.y_m + dy, pose.turn)]
 
 
-def noisy(bounds: MotionBounds = NONE, step: Fraction = Fraction(1), cell: Fraction = Fraction(1)) -> NoisyMap:
+def noisy(bounds: ExecutionBounds = NONE, step: Fraction = Fraction(1), cell: Fraction = Fraction(1)) -> NoisyMap:
     return NoisyMap(PILLAR, cell, Headings.of_angle(Fraction(90), 8, step), bounds)
 
 
@@ -38,10 +38,10 @@ def test_a_robot_with_real_geometry_is_never_lost(seed: int) -> None:
     environment = random_environment(seed)
     cell, count = chooser.choice([Fraction(1, 2), Fraction(1, 3), Fraction(7, 10)]), chooser.choice([8, 12, 36])
     headings = Headings(count, chooser.randrange(1, count), chooser.choice([Fraction(1), Fraction(3, 2), Fraction(3)]))
-    bounds = [MotionBounds(), SOME, MotionBounds(Fraction(15), count=2), MotionBounds(step=Fraction(1, 4))][seed % 4]
+    bounds = [ExecutionBounds(), SOME, ExecutionBounds(Fraction(15), count=2), ExecutionBounds(step=Fraction(1, 4))][seed % 4]
     made = NoisyMap(environment, cell, headings, bounds)
     robot = RealRobot(environment, headings.bounce_deg, headings.step * cell, bounds=bounds, seed=seed)
-    running = SetMembershipFilter(NoisyModel(made.graph), NoisyModel(made.graph).restart)
+    running = SetMembershipFilter(NoisyModel(made.graph), "restart")
     for pose in islice(robot.run(), 60):
         assert running.update(None, pose.observation) is None
         if bounds.count == 0 or pose.observation:  # with a wrong clock, the robot is where the set says at bumps
@@ -52,7 +52,7 @@ def test_a_broken_bound_is_noticed() -> None:
     made = NoisyMap(PILLAR, Fraction(1, 4), Headings.of_angle(Fraction(90), 36, Fraction(4)))
     lost = 0
     for seed in range(30):
-        robot = RealRobot(PILLAR, Fraction(90), Fraction(1), bounds=MotionBounds(Fraction(60)), seed=seed)
+        robot = RealRobot(PILLAR, Fraction(90), Fraction(1), bounds=ExecutionBounds(Fraction(60)), seed=seed)
         model = NoisyModel(made.graph)
         states = model.universe()
         for pose in islice(robot.run(), 80):
@@ -76,8 +76,8 @@ def test_without_errors_it_contains_the_answers_of_the_exact_map(step: Fraction)
             assert set(made.vertices_of_exact(known).tolist()) <= set(states.tolist())
 
 
-@pytest.mark.parametrize("larger", [MotionBounds(Fraction(50)), MotionBounds(step=Fraction(1, 5)), MotionBounds(count=1), SOME])
-def test_larger_bounds_give_larger_sets(larger: MotionBounds) -> None:
+@pytest.mark.parametrize("larger", [ExecutionBounds(Fraction(50)), ExecutionBounds(step=Fraction(1, 5)), ExecutionBounds(count=1), SOME])
+def test_larger_bounds_give_larger_sets(larger: ExecutionBounds) -> None:
     less, more = noisy().graph, noisy(larger).graph
     grown = 0
     for vertex in range(len(less)):
@@ -107,7 +107,7 @@ def test_the_automaton_is_that_of_the_filter_and_its_size_is_limited() -> None:
 
 def test_an_impossible_stream_is_a_rejection() -> None:
     model = NoisyModel(noisy(step=Fraction(3), cell=Fraction(1, 2)).graph)
-    robot = SetMembershipFilter(model, model.restart)
+    robot = SetMembershipFilter(model, "restart")
     found = [robot.update(None, 0) for _ in range(40)]
     first = next(each for each in found if each is not None)
     assert isinstance(first, Rejection)

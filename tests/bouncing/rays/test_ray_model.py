@@ -4,7 +4,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from ial.bouncing.motion_bounds import MotionBounds
+from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.rays.ray_grid import coarsened
 from ial.bouncing.rays.ray_model import RayModel, radians
 from ial.bouncing.rays.ray_set import RaySet
@@ -26,10 +26,10 @@ def test_a_robot_with_real_geometry_is_never_lost(first: int) -> None:
     assert sum(follow(seed, 3).losses for seed in range(first, first + 24)) == 0
 
 
-def localized(angle: Fraction, bounds: MotionBounds, told: MotionBounds, seed: int, legs: int = 14) -> tuple[int, int]:
+def localized(angle: Fraction, bounds: ExecutionBounds, told: ExecutionBounds, seed: int, legs: int = 14) -> tuple[int, int]:
     """At how many bumps a robot was in its set, and how many bumps the set rejected, if it is told these bounds."""
     model = RayModel(L_ROOM, angle, Fraction(1, 8), told, 6000)
-    running = SetMembershipFilter(model, model.restart)
+    running = SetMembershipFilter(model, "restart")
     robot = RealRobot(L_ROOM, Fraction(100), Fraction(1, 8), bounds=bounds, seed=seed)
     held = rejected = 0
     for _ in range(legs):
@@ -40,7 +40,7 @@ def localized(angle: Fraction, bounds: MotionBounds, told: MotionBounds, seed: i
 
 
 def test_a_robot_that_breaks_its_bounds_is_rejected_and_one_that_keeps_them_is_not() -> None:
-    none, some = MotionBounds(), MotionBounds(Fraction(2), Fraction(1, 50), 1)
+    none, some = ExecutionBounds(), ExecutionBounds(Fraction(2), Fraction(1, 50), 1)
     assert localized(Fraction(100), none, none, 1) == (14, 0)
     assert localized(Fraction(100), some, some, 2) == (14, 0)
     held, rejected = localized(Fraction(100), some, none, 2)
@@ -97,7 +97,7 @@ def test_the_way_of_a_leg_lies_between_exact_bounds() -> None:
         (Fraction(1, 3), Fraction(0), 0),
         (Fraction(7, 9), Fraction(1, 7), 2),
     ):
-        model = RayModel(ROOM, Fraction(90), step, MotionBounds(Fraction(0), error, missed), most_pieces=4000)
+        model = RayModel(ROOM, Fraction(90), step, ExecutionBounds(Fraction(0), error, missed), most_pieces=4000)
         start = model.leg(model.universe(), 1).only(np.arange(1))
         for count in range(200):
             states = RaySet(start.walls, start.lower, start.upper, np.array([count], np.int32), start.arriving, np.array([np.inf]))
@@ -156,7 +156,7 @@ def test_a_robot_that_touches_the_end_of_a_wall_may_go_on_along_the_other_wall_o
 
 def test_more_steps_than_fit_are_a_rejection() -> None:
     model = RayModel(ROOM, Fraction(90), Fraction(1), most_pieces=4000)
-    robot = SetMembershipFilter(model, model.restart)
+    robot = SetMembershipFilter(model, "restart")
     rejections = [robot.update(None, 0) for _ in range(6)]
     assert rejections == [None] * 5 + [Rejection(5)], "the diagonal is 5 m"
     assert len(robot.states) == len(model.universe())

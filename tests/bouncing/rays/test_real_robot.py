@@ -3,7 +3,7 @@ from fractions import Fraction
 
 import pytest
 
-from ial.bouncing.motion_bounds import MotionBounds
+from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.rays.real_robot import RealRobot
 from ial.errors import ConfigError, MapError
 from ial.maps.polygons.environment import Environment
@@ -68,7 +68,7 @@ def test_rays_meet_what_slow_sampling_meets() -> None:
 
 
 def test_errors_stay_within_their_bounds_and_reach_them() -> None:
-    bounds = MotionBounds(Fraction(2), Fraction(1, 20), 1)
+    bounds = ExecutionBounds(Fraction(2), Fraction(1, 20), 1)
     made = RealRobot(ROOM, Fraction(100), Fraction(1, 8), bounds=bounds, seed=1)
     wrong, counted = [], set()
     for _ in range(200):
@@ -98,9 +98,9 @@ def test_the_same_seed_gives_the_same_run() -> None:
         (lambda: RealRobot(ROOM, Fraction(90), Fraction(0)), ConfigError, "step is 0 m"),
         (lambda: RealRobot(ROOM, Fraction(90), Fraction(1), Fraction(-1)), ConfigError, "radius of the robot is -1 m"),
         (lambda: RealRobot(ROOM, Fraction(90), Fraction(1), Fraction(2)), MapError, "no free place was found"),
-        (lambda: MotionBounds(turn_deg=Fraction(180)), ConfigError, "error of a turn is 180°"),
-        (lambda: MotionBounds(step=Fraction(1)), ConfigError, "error of a step is 1 of"),
-        (lambda: MotionBounds(count=-1), ConfigError, "error of a count is -1"),
+        (lambda: ExecutionBounds(turn_deg=Fraction(180)), ConfigError, "error of a turn is 180°"),
+        (lambda: ExecutionBounds(step=Fraction(1)), ConfigError, "error of a step is 1 of"),
+        (lambda: ExecutionBounds(count=-1), ConfigError, "error of a count is -1"),
     ],
 )
 def test_what_cannot_be_meant_is_refused(make: object, error: type[Exception], message: str) -> None:

@@ -11,9 +11,9 @@ from ial.contractors.paving.clusters import cluster
 from ial.contractors.threads import set_threads
 from ial.datasets.scan import Mounting
 from ial.lidar.configuration.config import LocalizerConfig
-from ial.lidar.search.border_refinement import mend, trim
+from ial.lidar.search.border_refinement import mend, refine_border
 from ial.lidar.search.lattice import Lattice
-from ial.lidar.search.map_tables import Sheets
+from ial.lidar.search.map_tables import Sections
 from ial.lidar.search.outer_faces import outer_faces
 from ial.lidar.search.scan_contractor import ScanContractor
 from ial.maps.grids.cell_index import CellIndex
@@ -52,7 +52,7 @@ class Case:
         lower, upper = self.at - around, self.at + random.uniform(0.0, 2.5, 3) * self.lattice.widths
         if lower[2] < -math.pi:
             lower[2], upper[2] = lower[2] + 2.0 * math.pi, upper[2] + 2.0 * math.pi
-        self.cells = self.lattice.boxes(self.lattice.tiles(Boxes(lower[None], upper[None])))
+        self.cells = self.lattice.boxes(self.lattice.bitmaps(Boxes(lower[None], upper[None])))
         map_cells = np.where(world.mask, OCCUPIED, FREE).astype(np.uint8)
         map_cells[~world.mask & (random.random(world.mask.shape) < 0.2)] = UNKNOWN
         column, row = np.floor(self.at[:2] / world.resolution).astype(int)
@@ -60,7 +60,7 @@ class Case:
         self.allowed[row, column] = True
         map_cells[row, column] = FREE if map_cells[row, column] == UNKNOWN else map_cells[row, column]
         self.grid = OccupancyGrid(map_cells, world.resolution)
-        self.sheets = Sheets(self.grid, (FREE, OCCUPIED), 1, self.lattice, free_space=False)
+        self.sections = Sections(self.grid, (FREE, OCCUPIED), 1, self.lattice, free_space=False)
         self.beams = UsedBeams.of(world.scan, LocalizerConfig(bounds=world.bounds, max_beams=len(world.scan)))
         self.bad = int(self.bad_at(self.at[None])[0])
 
@@ -68,12 +68,12 @@ class Case:
         """Return how many beams are bad at most, by the twin; rays are not looked along."""
         return bad_beams(replace(self.beams, rays=self.beams.rays[:0], lengths=self.beams.lengths[:0]), poses, Obstacles(self.grid))
 
-    def trimmed(self, outliers: int) -> Boxes:
+    def refined(self, outliers: int) -> Boxes:
         cut, kept = self.cut(self.cells, outliers)
         return cut[kept]
 
     def cut(self, cells: Boxes, outliers: int) -> tuple[Boxes, np.ndarray]:
-        cut, kept = trim(cells, self.lattice, self.sheets, self.world.beams(outliers), self.world.bounds.map_error_m, self.depth)
+        cut, kept = refine_border(cells, self.lattice, self.sections, self.world.beams(outliers), self.depth)
         return cut, mend(cells, self.lattice, cut, kept, cluster(cut[kept], circular=(2,)))
 
     def holds(self, boxes: Boxes, at: np.ndarray) -> bool:
@@ -81,7 +81,7 @@ class Case:
 
     def pieces(self, outliers: int) -> tuple[Boxes, np.ndarray]:
         """Return all of the finest pieces that fit, as do all of the larger ones around them, and the number of the cell of each."""
-        scan = ScanContractor(self.world.beams(outliers), self.world.index(), self.world.bounds.map_error_m)
+        scan = ScanContractor(self.world.beams(outliers), self.world.index())
         domain = CellIndex(self.allowed, self.world.resolution)
         lower, upper, cell = self.cells.lower, self.cells.upper, np.arange(len(self.cells))
         for _ in range(self.depth):
@@ -113,10 +113,10 @@ def test_a_consistent_pose_stays(at_the_cut: bool) -> None:
     for seed in range(WORLDS):
         case = Case(seed, at_the_cut)
         assert case.holds(case.cells, case.at)
-        left = case.trimmed(case.bad)
+        left = case.refined(case.bad)
         assert case.holds(left, case.at), f"world {seed} lost its pose"
         narrowed += left.volume() < 0.9 * case.cells.volume()
-        sharp += case.bad > 0 and not case.holds(case.trimmed(case.bad - 1), case.at)
+        sharp += case.bad > 0 and not case.holds(case.refined(case.bad - 1), case.at)
     assert narrowed > 0.5 * WORLDS
     assert sharp > 0.15 * WORLDS  # with one outlier less, the pose is often cut off: the twin is at the edge
 
@@ -130,7 +130,7 @@ def test_every_consistent_pose_of_the_cells_stays() -> None:
         column, row = np.floor(poses[:, :2].T / case.world.resolution).astype(int)
         bad = case.bad_at(poses)
         outliers = int(np.sort(bad)[3])  # as many poses as that are consistent, some at the edge
-        left = case.trimmed(outliers)
+        left = case.refined(outliers)
         for number in np.flatnonzero((bad <= outliers) & case.allowed[row, column]):
             assert case.holds(left, poses[number]), f"world {seed} lost pose {poses[number]}"
             edge += bad[number] == outliers
@@ -206,6 +206,6 @@ def test_nothing_depends_on_threads_and_on_the_order_of_cells(threads: int) -> N
             cut, kept = case.cut(case.cells[order], case.bad)
         finally:
             set_threads(None)
-        expected = case.trimmed(case.bad)
+        expected = case.refined(case.bad)
         rows = {row.tobytes() for row in np.hstack([expected.lower, expected.upper])}
         assert {row.tobytes() for row in np.hstack([cut[kept].lower, cut[kept].upper])} == rows

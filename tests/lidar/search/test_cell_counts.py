@@ -35,12 +35,12 @@ class Case:
         self.lattice = Lattice(parts * self.occupied.resolution, float(random.choice([0.02, 0.2])), parts)
         at = np.array([world.pose.x, world.pose.y, world.pose.theta])
         around = random.uniform(0.0, 4.0, 3) * self.lattice.widths
-        self.tiles = self.lattice.tiles(Boxes((at - around)[None], (at + random.uniform(0.0, 4.0, 3) * self.lattice.widths)[None]))
+        self.bitmaps = self.lattice.bitmaps(Boxes((at - around)[None], (at + random.uniform(0.0, 4.0, 3) * self.lattice.widths)[None]))
 
     def count(self, most: int) -> tuple[Boxes, np.ndarray]:
         world = self.world
-        words, least = count_cells(self.tiles, self.lattice, world.beams(most), self.occupied, self.domain, world.bounds.map_error_m)
-        left = type(self.tiles)(self.tiles.keys, words)
+        words, least = count_cells(self.bitmaps, self.lattice, world.beams(most), self.occupied, self.domain)
+        left = type(self.bitmaps)(self.bitmaps.keys, words)
         return self.lattice.boxes(left), left.values(least)
 
     def holding_the_pose(self, cells: Boxes) -> np.ndarray:
@@ -71,8 +71,8 @@ def test_cells_are_kept_like_boxes_of_their_parts() -> None:
         case = Case(seed)
         world, lattice = case.world, case.lattice
         most = int(0.3 * len(world.hits()))
-        cells = lattice.boxes(case.tiles)
-        scan = ScanContractor(world.beams(most), case.occupied, world.bounds.map_error_m)
+        cells = lattice.boxes(case.bitmaps)
+        scan = ScanContractor(world.beams(most), case.occupied)
         expected = np.zeros(len(cells), dtype=np.bool_)
         for part in np.ndindex(lattice.parts, lattice.parts, 2):
             shares = np.array(part) / (lattice.parts, lattice.parts, 2)
@@ -96,14 +96,14 @@ def test_cells_outside_the_domain_are_dropped_on_any_number_of_threads(threads: 
     occupied, domain = CellIndex(~mask, 0.05), mask.copy()
     domain[20:40, 100:130] = True
     lattice = Lattice(0.1, 0.5)
-    tiles = lattice.tiles(Boxes.of([(0.0, 15.0), (0.0, 10.0), (-3.0, 3.0)]))
+    bitmaps = lattice.bitmaps(Boxes.of([(0.0, 15.0), (0.0, 10.0), (-3.0, 3.0)]))
     world = World.random(np.random.default_rng(0))
     set_threads(threads)
     try:
-        words, _ = count_cells(tiles, lattice, world.beams(1000), occupied, CellIndex(domain, 0.05, compact=True), 0.0)
+        words, _ = count_cells(bitmaps, lattice, world.beams(1000), occupied, CellIndex(domain, 0.05, compact=True))
     finally:
         set_threads(None)
-    cells = lattice.boxes(type(tiles)(tiles.keys, words))
+    cells = lattice.boxes(type(bitmaps)(bitmaps.keys, words))
     assert cells.lower[:, 0].min() == pytest.approx(4.9)  # closed cells that touch the domain belong to it
     assert cells.upper[:, 0].max() == pytest.approx(6.6)
     assert (cells.lower[:, 1].min(), cells.upper[:, 1].max()) == pytest.approx((0.9, 2.1))
@@ -131,13 +131,13 @@ def test_far_from_the_corner_of_a_map_the_parts_of_a_cell_drift_against_its_cell
     ahead = np.array([[1.0, 0.0]]) if axis == 0 else np.array([[0.0, 1.0]])
     mask = mask if axis == 0 else np.ascontiguousarray(mask.T)
     beams = Beams(reach * ahead, ahead, np.zeros((1, 2)), 0)
-    tiles = lattice.tiles(Boxes(pose[None], pose[None]))
-    words, _ = count_cells(tiles, lattice, beams, CellIndex(mask, resolution), CellIndex(~mask, resolution, compact=True), 0.0)
-    assert lattice.boxes(type(tiles)(tiles.keys, words)).contain(pose).any()
+    bitmaps = lattice.bitmaps(Boxes(pose[None], pose[None]))
+    words, _ = count_cells(bitmaps, lattice, beams, CellIndex(mask, resolution), CellIndex(~mask, resolution, compact=True))
+    assert lattice.boxes(type(bitmaps)(bitmaps.keys, words)).contain(pose).any()
 
 
-def test_no_tiles_are_no_trouble() -> None:
+def test_no_bitmaps_are_no_trouble() -> None:
     case = Case(0)
-    case.tiles = type(case.tiles)(case.tiles.keys[:0], case.tiles.words[:0])
+    case.bitmaps = type(case.bitmaps)(case.bitmaps.keys[:0], case.bitmaps.words[:0])
     cells, least = case.count(1)
     assert len(cells) == len(least) == 0

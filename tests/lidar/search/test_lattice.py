@@ -198,7 +198,7 @@ def test_a_double_beside_the_edge_of_a_cell_is_in_the_cell_on_its_side(position:
         for axis in (0, 1):
             bounds = np.zeros((len(at), 3))
             bounds[:, axis] = at
-            cells = [lattice.tiles(Boxes(row[None], row[None])) for row in bounds[:: 97 if axis else 1]]
+            cells = [lattice.bitmaps(Boxes(row[None], row[None])) for row in bounds[:: 97 if axis else 1]]
             boxes = [lattice.boxes(each) for each in cells]
             for row, box in zip(bounds[:: 97 if axis else 1], boxes, strict=True):
                 assert len(box) == 1
@@ -225,10 +225,10 @@ def test_an_arc_across_the_cut_takes_the_layer_in_which_it_ends(heading: float) 
         for edge in layer_edges(lattice.layers)[: lattice.layers // 2].tolist():
             for beyond in (0.0, 2e-15, 1e-12, 3e-9):
                 stop = float(edge + turn) + beyond
-                cells = lattice.boxes(lattice.tiles(Boxes.of([(0.5, 0.5), (0.5, 0.5), (3.0, stop)])))
+                cells = lattice.boxes(lattice.bitmaps(Boxes.of([(0.5, 0.5), (0.5, 0.5), (3.0, stop)])))
                 lower, upper = cells.lower[:, 2].tolist(), cells.upper[:, 2].tolist()
                 assert any(low <= stop - turn <= high or low <= stop <= high for low, high in zip(lower, upper, strict=True))
 
 
 def _around(lattice: Lattice, start: float, stop: float) -> Boxes:
-    return lattice.boxes(lattice.tiles(Boxes.of([(0.5, 0.5), (0.5, 0.5), (start, stop)]))).hull()
+    return lattice.boxes(lattice.bitmaps(Boxes.of([(0.5, 0.5), (0.5, 0.5), (start, stop)]))).hull()

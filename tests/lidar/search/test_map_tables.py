@@ -1,4 +1,4 @@
-"""A map in sheets gives the answers of the map in one piece."""
+"""A map in sections gives the answers of the map in one piece."""
 
 import itertools
 import math
@@ -20,7 +20,7 @@ from ial.lidar.localizer import Localizer
 from ial.lidar.pose_set import PoseSet
 from ial.lidar.search import map_tables
 from ial.lidar.search.lattice import Lattice
-from ial.lidar.search.map_tables import Sheets
+from ial.lidar.search.map_tables import Sections
 from ial.maps.grids.floor_plan import floor_plan
 from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.pose import Pose
@@ -31,9 +31,9 @@ LIDAR = Lidar(beams=72, angle_min=-math.pi, angle_increment=math.pi / 36.0, rang
 
 
 @pytest.fixture
-def small_sheets(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let maps of more than a few cells have sheets of 6.4 m, and keep as few of them as possible."""
-    monkeypatch.setattr(map_tables, "_ONE_SHEET", 100)
+def small_sections(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let maps of more than a few cells have sections of 6.4 m, and keep as few of them as possible."""
+    monkeypatch.setattr(map_tables, "_ONE_SECTION", 100)
     monkeypatch.setattr(map_tables, "_SIDE", 128)
     monkeypatch.setattr(map_tables, "_KEPT", 1)
 
@@ -59,22 +59,22 @@ def drive(seed: int) -> tuple[list[Pose], list[Step]]:
 
 
 def named(poses: PoseSet) -> set[bytes]:
-    bounds = np.hstack([poses.boxes.lower, poses.boxes.upper, poses.bad[:, None], poses.carried[:, None]]) + 0.0
+    bounds = np.hstack([poses.boxes.lower, poses.boxes.upper, poses.bad[:, None], poses.unconfirmed[:, None]]) + 0.0
     return {row.tobytes() for row in bounds}
 
 
 @pytest.mark.parametrize("outliers", [5, "auto"])
 @pytest.mark.parametrize("seed", [1, 2, 3, 4])
-def test_answers_do_not_depend_on_sheets(seed: int, outliers: int | str, small_sheets: None, monkeypatch: pytest.MonkeyPatch) -> None:
-    in_sheets = Localizer(world(), outliers=outliers, config=CONFIG)  # type: ignore[arg-type]
-    monkeypatch.setattr(map_tables, "_ONE_SHEET", 1 << 26)
+def test_answers_do_not_depend_on_sections(seed: int, outliers: int | str, small_sections: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    in_sections = Localizer(world(), outliers=outliers, config=CONFIG)  # type: ignore[arg-type]
+    monkeypatch.setattr(map_tables, "_ONE_SECTION", 1 << 26)
     whole = Localizer(world(), outliers=outliers, config=CONFIG)  # type: ignore[arg-type]
-    assert whole.model.map_tables.one
-    assert len(in_sheets.model.universe()) == 12
-    assert [len(each.model.map_tables.universe) for each in (whole, in_sheets)] == [1, 12]
+    assert whole.model.sections.one
+    assert len(in_sections.model.universe()) == 12
+    assert [len(each.model.sections.universe) for each in (whole, in_sections)] == [1, 12]
     statuses = []
     for pose, step in zip(*drive(seed), strict=True):
-        expected, found = whole.update(step.motion, step.scan), in_sheets.update(step.motion, step.scan)
+        expected, found = whole.update(step.motion, step.scan), in_sections.update(step.motion, step.scan)
         assert named(found.poses) == named(expected.poses)
         assert found.poses.contains(world().pose_to_grid(pose))
         assert (found.status, len(found.hypotheses), found.outliers_allowed) == (
@@ -83,12 +83,12 @@ def test_answers_do_not_depend_on_sheets(seed: int, outliers: int | str, small_s
             expected.outliers_allowed,
         )
         statuses.append(found.status)
-        assert in_sheets.locate(step.scan).poses.boxes.volume() == pytest.approx(whole.locate(step.scan).poses.boxes.volume())
+        assert in_sections.locate(step.scan).poses.boxes.volume() == pytest.approx(whole.locate(step.scan).poses.boxes.volume())
     assert "lost" in statuses
-    assert len(in_sheets.model.map_tables._made) == 4
+    assert len(in_sections.model.sections._made) == 4
 
 
-def test_a_hypothesis_that_lies_in_several_sheets_is_trimmed_in_each(small_sheets: None) -> None:
+def test_a_hypothesis_that_lies_in_several_sections_is_refined_in_each(small_sections: None) -> None:
     config = replace(CONFIG, precision=Precision(0.1, 0.05, halvings=2))
     localizer = Localizer(world(), config=config)
     border = 64 * localizer.model.lattice.position_m
@@ -99,12 +99,12 @@ def test_a_hypothesis_that_lies_in_several_sheets_is_trimmed_in_each(small_sheet
     for pose, step in zip(path, steps(recording, MOTION), strict=True):
         found = localizer.update(step.motion, step.scan)
         assert found.poses.contains(world().pose_to_grid(pose))
-        across += len(list(localizer.model.map_tables.parts(localizer.poses.boxes))) > 1
+        across += len(list(localizer.model.sections.parts(localizer.poses.boxes))) > 1
         assert found.poses.boxes.volume() < localizer.poses.boxes.volume()
     assert across >= 3
 
 
-def test_a_limit_leaves_a_coarser_answer_with_the_truth_in_it(small_sheets: None) -> None:
+def test_a_limit_leaves_a_coarser_answer_with_the_truth_in_it(small_sections: None) -> None:
     config = LocalizerConfig(bounds=CONFIG.bounds, outliers=5, max_boxes=300)
     localizer = Localizer(world(), config=config)
     pose, step = drive(1)[0][0], drive(1)[1][0]
@@ -114,13 +114,13 @@ def test_a_limit_leaves_a_coarser_answer_with_the_truth_in_it(small_sheets: None
     assert found.poses.contains(world().pose_to_grid(pose))
 
 
-def test_a_sheet_holds_every_end_of_a_beam(small_sheets: None) -> None:
+def test_a_section_holds_every_end_of_a_beam(small_sections: None) -> None:
     model = Localizer(world(), config=CONFIG).model
     for pose, step in zip(*drive(2), strict=True):
         beams = scan_beams(step.scan, CONFIG)
-        model.map_tables.reach(beams, CONFIG.bounds.map_error_m)
-        ((key, _, _),) = list(model.map_tables.parts(Boxes.of([(pose.x, pose.x), (pose.y, pose.y), (0.0, 0.0)])))
-        occupied = model.sheets[key].occupied
+        model.sections.reach(beams)
+        ((key, _, _),) = list(model.sections.parts(Boxes.of([(pose.x, pose.x), (pose.y, pose.y), (0.0, 0.0)])))
+        occupied = model.sections[key].occupied
         far = np.hypot(*beams.ends.T).max() + 0.05
         rows, columns = (size - 1 for size in occupied.table.shape)
         low_row, low_column = occupied.origin
@@ -129,9 +129,9 @@ def test_a_sheet_holds_every_end_of_a_beam(small_sheets: None) -> None:
             assert low + size == cells or (low + size) * 0.05 >= at + far
 
 
-def test_parts_cover_their_boxes_and_lie_in_the_cores(small_sheets: None) -> None:
+def test_parts_cover_their_boxes_and_lie_in_the_cores(small_sections: None) -> None:
     lattice = Lattice(0.1, 0.05, 2)
-    parts = Sheets(world(), (FREE,), 1, lattice)
+    parts = Sections(world(), (FREE,), 1, lattice)
     side = 64 * lattice.position_m
     random = np.random.default_rng(0)
     low = random.uniform([-1.0, -1.0, -3.0], [22.0, 16.0, 3.0], (500, 3))
@@ -160,13 +160,13 @@ def test_parts_cover_their_boxes_and_lie_in_the_cores(small_sheets: None) -> Non
     assert (numbers[50:80][exact] == 1).all()  # a box that is a core belongs to no neighbour
 
 
-def test_a_radius_is_kept_in_sheets_as_in_one_piece(small_sheets: None, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_radius_is_kept_in_sections_as_in_one_piece(small_sections: None, monkeypatch: pytest.MonkeyPatch) -> None:
     config = LocalizerConfig(bounds=CONFIG.bounds, robot_radius_m=0.4)
-    in_sheets = Localizer(world(), config=config)
-    monkeypatch.setattr(map_tables, "_ONE_SHEET", 1 << 26)
+    in_sections = Localizer(world(), config=config)
+    monkeypatch.setattr(map_tables, "_ONE_SECTION", 1 << 26)
     whole = Localizer(world(), config=config)
     at = np.random.default_rng(3).uniform([0.0, 0.0], [22.0, 16.0], (2000, 2))
-    answers = [[each.model.in_domain(Pose(x, y)) for x, y in at.tolist()] for each in (in_sheets, whole)]
+    answers = [[each.model.in_domain(Pose(x, y)) for x, y in at.tolist()] for each in (in_sections, whole)]
     assert answers[0] == answers[1]
     assert 0.1 < np.mean(answers[0]) < 0.9
 
@@ -175,7 +175,7 @@ def test_a_radius_is_kept_in_sheets_as_in_one_piece(small_sheets: None, monkeypa
 def test_a_cell_is_left_out_only_if_an_obstacle_is_too_near_from_everywhere_in_it(radius: float) -> None:
     cells = np.full((24, 30), FREE, dtype=np.uint8)
     cells[np.random.default_rng(3).random(cells.shape) < 0.03] = OCCUPIED
-    parts = Sheets(OccupancyGrid(cells, 0.1), (FREE,), 1, Lattice(0.2, 0.5, 2), radius_m=radius)
+    parts = Sections(OccupancyGrid(cells, 0.1), (FREE,), 1, Lattice(0.2, 0.5, 2), radius_m=radius)
     row, column = (0.1 * each for each in np.nonzero(cells == OCCUPIED))
     left_out = 0
     for at in np.argwhere(cells == FREE):
@@ -189,22 +189,22 @@ def test_a_cell_is_left_out_only_if_an_obstacle_is_too_near_from_everywhere_in_i
     assert left_out > 0 or radius <= 0.1
 
 
-def test_a_robot_that_fits_nowhere_is_refused(small_sheets: None) -> None:
+def test_a_robot_that_fits_nowhere_is_refused(small_sections: None) -> None:
     with pytest.raises(MapError, match="fits nowhere"):
         Localizer(world(), config=LocalizerConfig(robot_radius_m=6.0))
 
 
-def test_beams_that_reach_across_the_map_are_no_trouble(small_sheets: None) -> None:
+def test_beams_that_reach_across_the_map_are_no_trouble(small_sections: None) -> None:
     cells = np.full((300, 300), FREE, dtype=np.uint8)
     cells[[0, -1], :] = cells[:, [0, -1]] = OCCUPIED
     model = Localizer(OccupancyGrid(cells, 0.05), config=CONFIG).model
     ends = np.array([[14.0, 0.0], [0.0, 14.0]])
-    model.map_tables.reach(Beams(ends, ends / 14.0, np.zeros((2, 2)), 0), 0.01)
-    assert model.sheets[0, 0].occupied.table.shape == (301, 301)
+    model.sections.reach(Beams(ends, ends / 14.0, np.zeros((2, 2)), 0, map_error_m=0.01))
+    assert model.sections[0, 0].occupied.table.shape == (301, 301)
 
 
-def test_answers_do_not_depend_on_sheets_where_beams_without_return_see_farther_than_others(
-    small_sheets: None, monkeypatch: pytest.MonkeyPatch
+def test_answers_do_not_depend_on_sections_where_beams_without_return_see_farther_than_others(
+    small_sections: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     config = replace(CONFIG, outliers=4, precision=Precision(0.2, 0.1, 0), free_space=FreeSpace(margin_m=0.05, no_return_m=20.0))
     blocked = 0
@@ -217,7 +217,7 @@ def test_answers_do_not_depend_on_sheets_where_beams_without_return_see_farther_
         region = Boxes.of([(pose.x - 1.0, pose.x + 1.0), (pose.y - 1.0, pose.y + 1.0), (pose.theta, pose.theta + 0.3)])
         answers = []
         for cells, using in ((100, config), (1 << 26, config), (1 << 26, replace(config, free_space=FreeSpace(use=False)))):
-            monkeypatch.setattr(map_tables, "_ONE_SHEET", cells)
+            monkeypatch.setattr(map_tables, "_ONE_SECTION", cells)
             answers.append(Localizer(world(), config=using, initial=region).update(None, scan).poses)
         assert named(answers[0]) == named(answers[1])
         blocked += len(answers[1]) < len(answers[2])
@@ -260,7 +260,7 @@ def test_a_robot_is_found_near_the_end_of_a_long_map_however_its_cells_are_split
     bounds = Bounds(0.005, 0.001, 0.005, MOTION)
     config = LocalizerConfig(bounds=bounds, outliers=0, precision=Precision(position, 0.05, halvings=0))
     localizer = Localizer(grid, config=config, initial=region)
-    assert localizer.model.map_tables.one is one
+    assert localizer.model.sections.one is one
     lidar = Lidar(beams=40, angle_min=-math.pi, angle_increment=math.pi / 20.0, range_max=6.0)
     recording = simulate(grid, [pose, pose], lidar, SensorErrors(0.005, 0.001), MOTION, 1).recording
     for step in steps(recording, MOTION):
@@ -289,6 +289,6 @@ def test_a_precision_too_fine_for_the_map_is_refused_with_its_own_numbers(
 def test_beams_that_reach_too_far_for_a_fine_precision_are_refused_with_theirs() -> None:
     model = Localizer(corridor(3000, 3000, 0.05), config=replace(CONFIG, precision=Precision(0.004))).model
     ends = np.array([[40.0, 0.0]])
-    model.map_tables.reach(Beams(0.2 * ends, ends / 40.0, np.zeros((1, 2)), 0), 0.01)
+    model.sections.reach(Beams(0.2 * ends, ends / 40.0, np.zeros((1, 2)), 0, map_error_m=0.01))
     with pytest.raises(ConfigError, match=r"0\.004 m, .* 3000 × 3000 cells of 0\.05 m .* 25 × 25 .* reach 40 m, .* at least 0\.\d+ m"):
-        model.map_tables.reach(Beams(ends, ends / 40.0, np.zeros((1, 2)), 0), 0.01)
+        model.sections.reach(Beams(ends, ends / 40.0, np.zeros((1, 2)), 0, map_error_m=0.01))

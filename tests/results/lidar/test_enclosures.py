@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ial.lidar.estimate import Hypothesis
+from ial.lidar.hypothesis import Hypothesis
 from ial.results.lidar.enclosures import Enclosure, EnclosuresFile, read_enclosures
 
 NUMBER = st.floats(allow_nan=False, allow_infinity=False)
@@ -65,7 +65,7 @@ def test_a_line_holds_what_the_format_promises(estimate_of: Callable[..., Any], 
     box = [(1.0, 2.0), (3.0, 3.5), (0.1, 0.2)]
     run = [
         estimate_of(4, box),
-        estimate_of(6, box, status="blind", carried=True, limited="time", uninformative=True),
+        estimate_of(6, box, status="blind", unconfirmed=True, limited="time", uninformative=True),
         estimate_of(7, box, status="localized", vanishing=True),
     ]
     first, second, third = map(json.loads, written(tmp_path / "enclosures.jsonl", run).read_text().splitlines())

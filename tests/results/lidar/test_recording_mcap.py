@@ -97,7 +97,7 @@ def test_the_file_is_a_recording_of_the_same_scans_with_its_map(sample_file: Pat
 
 
 def test_markers_show_boxes_hulls_and_what_is_only_predicted(estimate_of: Callable[..., Any], grid: OccupancyGrid, tmp_path: Path) -> None:
-    run = [estimate_of(1, BOX), estimate_of(2, BOX, status="blind", carried=True), estimate_of(3, status="blind")]
+    run = [estimate_of(1, BOX), estimate_of(2, BOX, status="blind", unconfirmed=True), estimate_of(3, status="blind")]
     arrays = [message for topic, _, message in messages(written(tmp_path / "a.mcap", grid, run)) if topic == "/enclosures"]
     shown = [{marker.ns for marker in array.markers if marker.action == 0} for array in arrays]
     assert shown == [{"boxes", "hypotheses"}, {"prediction", "predicted hypotheses"}, set()]

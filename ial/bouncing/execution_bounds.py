@@ -1,4 +1,4 @@
-"""`MotionBounds`: by how much a real robot may differ from what it was told to do."""
+"""`ExecutionBounds`: by how much a real robot may differ from what it was told to do."""
 
 from dataclasses import dataclass
 from fractions import Fraction
@@ -7,7 +7,7 @@ from ial.errors import ConfigError
 
 
 @dataclass(frozen=True)
-class MotionBounds:
+class ExecutionBounds:
     """Bounds of the errors of a bouncing robot; all are 0 for a robot without errors.
 
     Parameters
