@@ -19,6 +19,7 @@ from numba.core.typing.templates import Signature
 
 from ial.contractors.kernel_folder import kernel_folder
 from ial.contractors.kernel_sources import kernel_sources
+from ial.contractors.prebuilt_kernels import prebuilt_kernels
 
 logger = logging.getLogger("ial.kernels")
 
@@ -108,17 +109,17 @@ class KernelCache(_Cache):  # type: ignore[misc]
         if not self._watched or not self._reads:
             return None
         name = self._name(signature)
-        folder = kernel_folder()
         try:
-            kept = folder.read(name)
-            found = None if kept is None else _rebuild(kept, signature, target_context)
+            for folder in (kernel_folder(), *prebuilt_kernels()):
+                if (kept := folder.read(name)) is not None and (found := _rebuild(kept, signature, target_context)) is not None:
+                    return found
         except Exception as error:  # whatever is wrong with what was kept: the source is there
             _announce("compiling kernels again, for what was kept cannot be used: %s", error)
             return None
-        if found is None:
-            nowhere = "at every start: no folder can keep them, IAL_CACHE_DIR may name one"
-            _announce("compiling kernels, %s", f"once, that were not used before (to be kept in {folder.path})" if folder.path else nowhere)
-        return found
+        path = kernel_folder().path
+        nowhere = "at every start: no folder can keep them, IAL_CACHE_DIR may name one"
+        _announce("compiling kernels, %s", f"once, that were not used before (to be kept in {path})" if path else nowhere)
+        return None
 
     def save_overload(self, signature: Any, result: Any) -> None:
         """Keep the code that was compiled for arguments of such types."""
@@ -130,6 +131,7 @@ class KernelCache(_Cache):  # type: ignore[misc]
         if kernel_sources().have_changed():
             folder.stop("the source of ial has changed since this program was started")
         if folder.keeps:
+            result = result._replace(type_annotation="")  # long, and it names the folders of this machine
             folder.write(self._name(signature), dumps((signature, result._reduce())))
 
 

@@ -35,6 +35,8 @@ class KernelFolder:
     ----------
     path
         A private folder; None if there is none, then nothing is read and nothing kept.
+    read_only
+        Whether nothing is kept there.
 
     Attributes
     ----------
@@ -42,9 +44,9 @@ class KernelFolder:
         Whether all that was compiled is kept, as far as is known.
     """
 
-    def __init__(self, path: Path | None) -> None:
+    def __init__(self, path: Path | None, read_only: bool = False) -> None:
         self.path = path
-        self.keeps = path is not None
+        self.keeps = path is not None and not read_only
         self._is_tidy = False
 
     def read(self, name: str) -> bytes | None:
@@ -65,8 +67,9 @@ class KernelFolder:
             return None
         if kept[:_CHECKSUM] != hashlib.sha256(kept[_CHECKSUM:]).digest():
             raise ValueError(f"damaged: {self.path / name}")
-        with contextlib.suppress(OSError):  # what can only be read is good enough
-            os.utime(self.path / name, follow_symlinks=False)
+        if self.keeps:
+            with contextlib.suppress(OSError):  # what can only be read is good enough
+                os.utime(self.path / name, follow_symlinks=False)
         return kept[_CHECKSUM:]
 
     def write(self, name: str, content: bytes) -> None:

@@ -29,3 +29,26 @@ def test_the_processor_and_numbas_settings_change_the_hash(monkeypatch: pytest.M
         monkeypatch.setattr(type(generator), "magic_tuple", lambda _, processor=processor: processor)
         hashes.append(fresh())
     assert len(set(hashes)) == 4
+
+
+@pytest.mark.parametrize(
+    ("features", "usable"),
+    [
+        ("", ["x86-64"]),
+        ("-avx2", ["x86-64"]),
+        (",".join(f"+{name}" for name in kernel_compiler.PORTABLE["x86-64-v3"]), ["x86-64-v3", "x86-64"]),
+        (",".join(f"{'-' if name == 'fma' else '+'}{name}" for name in kernel_compiler.PORTABLE["x86-64-v3"]), ["x86-64"]),
+    ],
+)
+def test_a_processor_stands_for_those_whose_features_it_has(monkeypatch: pytest.MonkeyPatch, features: str, usable: list[str]) -> None:
+    monkeypatch.setattr(kernel_compiler, "_processor", lambda: ("a system", "a processor", features))
+    assert kernel_compiler.usable_processors() == usable
+
+
+def test_kernels_for_another_system_or_interpreter_have_another_hash(monkeypatch: pytest.MonkeyPatch) -> None:
+    hashes = [kernel_compiler.portable_hash(name) for name in kernel_compiler.PORTABLE]
+    monkeypatch.setattr(kernel_compiler, "_processor", lambda: ("another", "", ""))
+    hashes.append(kernel_compiler.portable_hash("x86-64"))
+    monkeypatch.setattr(sys.implementation, "cache_tag", "cpython-399")
+    hashes.append(kernel_compiler.portable_hash("x86-64"))
+    assert len(set(hashes)) == 4

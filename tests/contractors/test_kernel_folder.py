@@ -83,6 +83,14 @@ def test_no_folder_keeps_nothing_and_holds_nothing() -> None:
     assert (folder.keeps, folder.read("one")) == (False, None)
 
 
+def test_a_folder_to_be_read_stays_as_it_is(folder: KernelFolder, tmp_path: Path) -> None:
+    folder.write("one", b"content")
+    os.utime(tmp_path / "one", (1, 1))
+    reading = KernelFolder(tmp_path, read_only=True)
+    reading.write("two", b"")
+    assert (reading.read("one"), reading.read("two"), (tmp_path / "one").stat().st_mtime) == (b"content", None, 1)
+
+
 def test_the_folder_is_in_the_users_cache_where_the_code_is_not_the_users(find: Find, tmp_path: Path) -> None:
     assert find() == tmp_path / "home" / ".cache" / "ial" / name()
     assert {path.stat().st_mode & 0o777 for path in (tmp_path / "home").rglob("*")} == {0o700}
