@@ -7,7 +7,15 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-_NEEDED = ("__init__.py", "kernels.py", "kernel_cache.py", "kernel_folder.py", "kernel_sources.py", "private_folder.py")
+_NEEDED = (
+    "__init__.py",
+    "interpreter.py",
+    "kernels.py",
+    "kernel_cache.py",
+    "kernel_folder.py",
+    "kernel_sources.py",
+    "private_folder.py",
+)
 _TINY = """
 from numba import types
 

@@ -38,12 +38,12 @@ def test_a_change_of_a_constant_in_a_file_without_kernels_is_noticed(copy: Packa
 CORNER = """
 import numpy as np
 from ial.contractors.kernels import kernel
-from ial.lidar.search.rectangle_indices import OFFSET, corners
+from ial.lidar.rectangle_indices import OFFSET, rectangle_indices
 
 
 @kernel
 def corner(bounds):
-    return corners(bounds, 0, OFFSET, OFFSET, OFFSET, OFFSET, np.int32(9), np.int32(9))[0]
+    return rectangle_indices(bounds, 0, OFFSET, OFFSET, OFFSET, OFFSET, np.int32(9), np.int32(9))[0]
 
 
 print(corner(np.full((1, 4), 4.5)))
@@ -52,15 +52,15 @@ print(corner(np.full((1, 4), 4.5)))
 
 def test_a_change_of_an_intrinsic_is_noticed(copy: PackageCopy) -> None:
     (copy.package / "lidar").mkdir()
-    corners = copy.package / "lidar" / "corners.py"
-    shutil.copy(ROOT / "ial" / "lidar" / "corners.py", corners)
+    indices = copy.package / "lidar" / "rectangle_indices.py"
+    shutil.copy(ROOT / "ial" / "lidar" / "search" / "rectangle_indices.py", indices)
     (copy.package / "lidar" / "corner.py").write_text(CORNER)
     assert copy.use("import ial.lidar.corner")[0] == "4"
     assert len(copy.kept) == 1
-    text = corners.read_text()
+    text = indices.read_text()
     changed = text.replace("[int(OFFSET)] * 4", "[int(OFFSET) - 3] * 4")
     assert changed != text
-    corners.write_text(changed)
+    indices.write_text(changed)
     assert copy.use("import ial.lidar.corner")[0] == "7"
 
 
