@@ -85,7 +85,7 @@ def edge_above(index, resolution):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _cells_met(inverse_resolution, resolution, lower, upper, cells):  # type: ignore[no-untyped-def]
+def _cells_exactly_met(inverse_resolution, resolution, lower, upper, cells):  # type: ignore[no-untyped-def]
     """Return `cells_met` without the outermost cells that the margin alone let in: exactly the cells that are met."""
     first, stop = cells_met(inverse_resolution, lower, upper, 0, cells)
     # A number lies below a double exactly if the largest double that is not above it does.
@@ -128,8 +128,8 @@ def contract(table, inverse_resolution, resolution, xl, xu, yl, yu):  # type: ig
     """Return the hull (xl, xu, yl, yu) of the points of a rectangle that lie in a cell of the set: the tightest in doubles."""
     if not (xl <= xu and yl <= yu):
         return np.inf, -np.inf, np.inf, -np.inf
-    column0, column1 = _cells_met(inverse_resolution, resolution, xl, xu, table.shape[1] - 1)
-    row0, row1 = _cells_met(inverse_resolution, resolution, yl, yu, table.shape[0] - 1)
+    column0, column1 = _cells_exactly_met(inverse_resolution, resolution, xl, xu, table.shape[1] - 1)
+    row0, row1 = _cells_exactly_met(inverse_resolution, resolution, yl, yu, table.shape[0] - 1)
     if column0 >= column1 or row0 >= row1 or count(table, row0, row1, column0, column1) <= 0:
         return np.inf, -np.inf, np.inf, -np.inf
     column0, column1 = columns_with_cells(table, row0, row1, column0, column1)
