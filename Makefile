@@ -5,9 +5,11 @@ PYTHON ?= python3
 PYTEST_ARGS ?= --numprocesses auto --dist worksteal
 export PYTHON
 
-# What NUMBA_DISABLE_JIT=1 can reach in minutes: every intrinsic, the interval arithmetic, expressions, and the kernels of the search.
-INTERPRETED = tests/test_lazy.py $(addprefix tests/contractors/,intervals expressions geometry test_interpreter.py test_rounding.py) \
-    $(addprefix tests/lidar/search/,test_free_space.py test_lattice.py test_prediction.py) tests/maps/grids
+# What runs in minutes with NUMBA_DISABLE_JIT=1: every intrinsic, the arithmetic of intervals, expressions, the moving of boxes.
+_INTERVALS = angle arithmetic conversion double error_free exp_log integer interval literal narrowing reverse_integer reverse_powers
+INTERPRETED = tests/test_lazy.py tests/contractors/test_interpreter.py tests/contractors/test_rounding.py \
+    $(_INTERVALS:%=tests/contractors/intervals/test_%.py) tests/contractors/expressions/test_operation.py \
+    tests/contractors/expressions/test_functions.py tests/lidar/search/test_prediction.py
 FAST = not slow and not data
 
 .PHONY: help demo test check interpreted coverage lint docs smoke interpreters requirements clean

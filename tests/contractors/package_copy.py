@@ -72,7 +72,7 @@ class PackageCopy:
         return sorted(self.folder.rglob("*.kernel"))
 
     def start(self, script: str = USE, **variables: str) -> "subprocess.Popen[str]":
-        others = ("IAL_CACHE_DIR", "XDG_CACHE_HOME", "NUMBA_DISABLE_JIT")
+        others = ("IAL_CACHE_DIR", "XDG_CACHE_HOME", "NUMBA_DISABLE_JIT", "COVERAGE_PROCESS_CONFIG")  # a copy is not what coverage measures
         environment = {name: value for name, value in os.environ.items() if name not in others}
         environment |= {"PYTHONPATH": str(self.folder), "HOME": str(self.home), **variables}
         lines = f"import ial\nassert ial.__file__.startswith({str(self.folder)!r})\n{script}"

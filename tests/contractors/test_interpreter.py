@@ -140,10 +140,12 @@ def outcome(jit: str, *command: str) -> str:
     return done.stdout
 
 
+@pytest.mark.slow
 def test_interpreted_results_are_those_of_compiled_kernels() -> None:
     assert outcome("1", "-c", WORK) == outcome("0", "-c", WORK)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(INTERPRETED, reason="is what this would start")
 def test_a_piece_of_the_suite_runs_interpreted() -> None:
     printed = outcome("1", "-m", "pytest", "-q", "-p", "no:cacheprovider", "-k", "a_step or splitting or follow or unknown", *PIECE)

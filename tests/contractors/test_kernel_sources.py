@@ -61,6 +61,7 @@ def test_whatever_imports_a_compiler_is_covered(sources: KernelSources) -> None:
     assert found <= set(sources.files)
 
 
+@pytest.mark.slow
 def test_so_is_all_that_this_imports(sources: KernelSources) -> None:
     reached, todo = set(), [module for module in modules() if compiles(module)]
     while todo:
@@ -97,6 +98,7 @@ def test_a_copy_without_links_has_the_same_hash(copy: Path, sources: KernelSourc
     assert KernelSources(copy).hash == sources.hash
 
 
+@pytest.mark.slow
 def test_one_byte_in_any_covered_file_changes_the_hash(copy: Path, sources: KernelSources) -> None:
     generator = random.Random(12)
     for module, original in sources.files.items():

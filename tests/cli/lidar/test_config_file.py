@@ -47,6 +47,7 @@ def test_the_keys_are_those_that_are_written() -> None:
     assert all(field.description for field in ConfigKeys.model_fields.values())
 
 
+@pytest.mark.slow
 @given(config=CONFIG)
 def test_what_is_written_reads_back_to_the_last_bit(tmp_path_factory: pytest.TempPathFactory, config: LocalizerConfig) -> None:
     file = tmp_path_factory.mktemp("config") / "config.yaml"
