@@ -5,16 +5,27 @@ PYTHON ?= python3
 PYTEST_ARGS ?= --numprocesses auto --dist worksteal
 export PYTHON
 
-.PHONY: help demo test lint docs smoke wheel requirements clean
+# What runs in minutes with NUMBA_DISABLE_JIT=1: every intrinsic, the arithmetic of intervals, expressions, the moving of boxes.
+_INTERVALS = angle arithmetic conversion double error_free exp_log integer interval literal narrowing reverse_integer reverse_powers
+INTERPRETED = tests/test_lazy.py tests/contractors/test_interpreter.py tests/contractors/test_rounding.py \
+    $(_INTERVALS:%=tests/contractors/intervals/test_%.py) tests/contractors/expressions/test_operation.py \
+    tests/contractors/expressions/test_functions.py tests/lidar/search/test_prediction.py
+FAST = not slow and not data
+
+.PHONY: help demo test check interpreted coverage lint docs smoke wheel interpreters requirements clean
 .NOTPARALLEL:
 
 help:
 	@echo "make demo           localize the embedded recording; the result is in out/demo"
 	@echo "make test           run the tests (IAL_DATA and IAL_ITF1788 name the folders of the test data)"
+	@echo "make check          lint, types and the fast tests: in a minute"
+	@echo "make interpreted    a part of the tests without compiled kernels, as a debugger sees them"
+	@echo "make coverage       which lines the tests reach"
 	@echo "make lint           ruff and mypy"
 	@echo "make docs           the documentation, in docs/_build/html"
 	@echo "make smoke          install as a user does, into an empty environment, and try every command"
 	@echo "make wheel          a wheel for this system and Python that carries compiled kernels, in dist"
+	@echo "make interpreters   try every Python from 3.10 to 3.13 that this machine has"
 	@echo "make requirements   resolve the pinned versions anew"
 	@echo "make clean          remove the environment and everything that was made"
 
@@ -23,6 +34,20 @@ demo: .venv/.run
 
 test: .venv/.test
 	.venv/bin/pytest $(PYTEST_ARGS)
+
+check: lint .venv/.test
+	.venv/bin/pytest $(PYTEST_ARGS) -m "$(FAST)"
+
+interpreted: .venv/.test
+	NUMBA_DISABLE_JIT=1 .venv/bin/pytest $(PYTEST_ARGS) -m "$(FAST)" $(INTERPRETED)
+
+# Coverage does not see into compiled kernels, so a second run interprets them.
+coverage: .venv/.test
+	.venv/bin/coverage erase
+	.venv/bin/coverage run -m pytest $(PYTEST_ARGS)
+	NUMBA_DISABLE_JIT=1 .venv/bin/coverage run -m pytest $(PYTEST_ARGS) -m "$(FAST)" $(INTERPRETED)
+	.venv/bin/coverage combine --quiet
+	.venv/bin/coverage report
 
 lint: .venv/.lint
 	.venv/bin/ruff check
@@ -39,11 +64,14 @@ smoke:
 wheel: .venv/.run
 	requirements/wheel
 
+interpreters:
+	.ci/interpreters
+
 requirements: .venv/.pin
 	requirements/compile
 
 clean:
-	rm -rf .venv out build dist docs/_build docs/api/generated ial.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf .venv out build dist docs/_build docs/api/generated ial.egg-info .pytest_cache .mypy_cache .ruff_cache .hypothesis .coverage*
 
 .venv/.%: requirements/%.txt requirements/tools.txt requirements/build-constraints.txt pyproject.toml
 	requirements/set-up $*

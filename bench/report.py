@@ -25,7 +25,7 @@ class Report:
     def __init__(self, title: str, about: str) -> None:
         self._lines: list[str] = []
         self.say(f"# {title}\n\n{about}\n")
-        self.say(f"- {datetime.datetime.now(datetime.UTC):%Y-%m-%d %H:%M} UTC, ial {version('ial')}, numba {version('numba')}")
+        self.say(f"- {datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d %H:%M} UTC, ial {version('ial')}, numba {version('numba')}")
         self.say(f"- {_processor()}, {os.cpu_count()} cores, Python {platform.python_version()}, {platform.system()} {platform.release()}")
         if hasattr(os, "getloadavg"):
             self.say(f"- load before: {os.getloadavg()[0]:.1f}; times on a busy machine compare only within one table")

@@ -1,11 +1,14 @@
 """Operators that work side by side on boxes, and the operands that they understand."""
 
-from typing import Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.intervals.double import above, below, is_number, whole
+
+if TYPE_CHECKING:
+    from typing_extensions import Self  # in typing since Python 3.11
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -16,36 +19,36 @@ class Elementwise:
     operand_rank: ClassVar[int] = 1  # of a number, intervals, boxes and expressions, the highest decides what an operation gives
     __array_ufunc__: ClassVar[None] = None  # an array on the left leaves the operation to the boxes on the right
 
-    def _apply(self, name: str, *operands: Any) -> Self:
+    def _apply(self, name: str, *operands: Any) -> "Self":
         from ial.contractors.expressions import functions  # many kernels, needed only by who computes with boxes
 
         return getattr(functions, name)(*operands) if all(map(is_operand, operands)) else NotImplemented
 
-    def __add__(self, other: Any) -> Self:
+    def __add__(self, other: Any) -> "Self":
         return self._apply("add", self, other)
 
-    def __radd__(self, other: Any) -> Self:
+    def __radd__(self, other: Any) -> "Self":
         return self._apply("add", other, self)
 
-    def __sub__(self, other: Any) -> Self:
+    def __sub__(self, other: Any) -> "Self":
         return self._apply("sub", self, other)
 
-    def __rsub__(self, other: Any) -> Self:
+    def __rsub__(self, other: Any) -> "Self":
         return self._apply("sub", other, self)
 
-    def __mul__(self, other: Any) -> Self:
+    def __mul__(self, other: Any) -> "Self":
         return self._apply("mul", self, other)
 
-    def __rmul__(self, other: Any) -> Self:
+    def __rmul__(self, other: Any) -> "Self":
         return self._apply("mul", other, self)
 
-    def __truediv__(self, other: Any) -> Self:
+    def __truediv__(self, other: Any) -> "Self":
         return self._apply("div", self, other)
 
-    def __rtruediv__(self, other: Any) -> Self:
+    def __rtruediv__(self, other: Any) -> "Self":
         return self._apply("div", other, self)
 
-    def __pow__(self, exponent: Any) -> Self:
+    def __pow__(self, exponent: Any) -> "Self":
         """Return the powers, as `Interval` does: a whole number n multiplies, every other exponent needs a base >= 0."""
         n = whole(exponent)
         if n is None:
@@ -54,16 +57,16 @@ class Elementwise:
             raise ValueError(f"the exponent is {exponent}; a whole exponent of boxes must lie between -2**53 and 2**53")
         return self._apply("sqr", self) if n == 2 else self._apply("pown", self, n)
 
-    def __rpow__(self, base: Any) -> Self:
+    def __rpow__(self, base: Any) -> "Self":
         return self._apply("pow", base, self)
 
-    def __neg__(self) -> Self:
+    def __neg__(self) -> "Self":
         return self._apply("neg", self)
 
-    def __pos__(self) -> Self:
+    def __pos__(self) -> "Self":
         return self
 
-    def __abs__(self) -> Self:
+    def __abs__(self) -> "Self":
         return self._apply("absolute", self)
 
 

@@ -2,13 +2,12 @@
 
 import numpy as np
 from numba import types
-from numba.extending import intrinsic
 
-from ial.contractors.kernels import kernel
+from ial.contractors.kernels import intrinsic, kernel
 from ial.errors import RoundingModeError
 
 
-@intrinsic
+@intrinsic(lambda x: np.float64(x).view(np.int64))
 def _bits(typingctx, x):  # type: ignore[no-untyped-def]
     def codegen(context, builder, signature, args):  # type: ignore[no-untyped-def]
         return builder.bitcast(args[0], context.get_value_type(types.int64))
@@ -16,7 +15,7 @@ def _bits(typingctx, x):  # type: ignore[no-untyped-def]
     return types.int64(types.float64), codegen
 
 
-@intrinsic
+@intrinsic(lambda bits: np.int64(bits).view(np.float64))
 def _double(typingctx, x):  # type: ignore[no-untyped-def]
     def codegen(context, builder, signature, args):  # type: ignore[no-untyped-def]
         return builder.bitcast(args[0], context.get_value_type(types.float64))

@@ -1,6 +1,6 @@
 """Sphinx builds the documentation from this; `make docs` turns every warning into an error."""
 
-import contextlib
+import os
 import re
 import runpy
 import shlex
@@ -43,11 +43,15 @@ def draw_pictures(app):
     examples = runpy.run_path(str(docs / "examples.py"))
     pictures = docs / "_build" / "pictures"
     pictures.mkdir(parents=True, exist_ok=True)
-    with contextlib.chdir(pictures):
+    here = Path.cwd()
+    os.chdir(pictures)
+    try:
         for name in examples["PAGES"]:
             for section in examples["sections"](docs / name).values():
                 examples["run"](docs / name, section)
         draw_bounces((docs / "bouncing.md").read_text(encoding="utf-8"))
+    finally:
+        os.chdir(here)
 
 
 def draw_bounces(page):

@@ -24,7 +24,10 @@ def lazy(package: str, homes: Mapping[str, Sequence[str]]) -> tuple[Callable[[st
     def get(name: str) -> Any:
         if name not in home_of:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")
-        module = import_module(f"{package}.{home_of[name]}")
+        try:
+            module = import_module(f"{package}.{home_of[name]}")
+        except AttributeError as error:  # Python would take it for "no such name" and hide what is wrong
+            raise ImportError(f"{package}.{name} cannot be imported: {error}", name=f"{package}.{home_of[name]}") from error
         value = getattr(module, name) if homes[home_of[name]] else module
         setattr(sys.modules[package], name, value)
         return value

@@ -8,8 +8,21 @@ import pytest
 from hypothesis import settings
 from numba.extending import is_jitted
 
+from ial.contractors.interpreter import INTERPRETED
+
 settings.register_profile("ial", deadline=None, derandomize=True)
-settings.load_profile("ial")
+settings.register_profile("interpreted", settings.get_profile("ial"), max_examples=10)  # a kernel takes a hundred times as long then
+settings.load_profile("interpreted" if INTERPRETED else "ial")
+
+
+@pytest.hookimpl(tryfirst=True)  # before pytest itself chooses by marks
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark tests by what they need: those of recordings with `data`; those of machine code are skipped where there is none."""
+    for item in items:
+        if {"data_folder", "itf1788_folder"}.intersection(getattr(item, "fixturenames", ())):
+            item.add_marker("data")
+        if INTERPRETED and item.get_closest_marker("compiled"):
+            item.add_marker(pytest.mark.skip(reason="NUMBA_DISABLE_JIT is set, so nothing is compiled"))
 
 
 def _folder(variable: str) -> Path:

@@ -1,5 +1,6 @@
 """`Operation`: one operation on intervals, forward and backward, for one interval, for arrays of them, and for expressions."""
 
+import ctypes
 import functools
 import inspect
 from collections.abc import Callable, Sequence
@@ -9,12 +10,11 @@ import numpy as np
 import numpy.typing as npt
 from llvmlite import ir
 from numba import types
-from numba.core.dispatcher import Dispatcher
 from numba.core.errors import NumbaError
-from numba.extending import intrinsic
 
+from ial.contractors.interpreter import InterpretedCallback
 from ial.contractors.intervals.interval import Interval
-from ial.contractors.kernels import callback, compile_users, kernel
+from ial.contractors.kernels import callback, compile_users, intrinsic, is_kernel, kernel
 from ial.contractors.rounding import check_rounding
 from ial.contractors.threads import run
 
@@ -28,7 +28,11 @@ FloatArray = npt.NDArray[np.float64]
 Bounds = tuple[FloatArray, FloatArray]
 
 
-@intrinsic
+def _call_python(address: int, count: int, *lanes: int) -> None:
+    InterpretedCallback.at(address)(count, *(ctypes.cast(int(lane), ctypes.POINTER(ctypes.c_double)) for lane in lanes))
+
+
+@intrinsic(_call_python)
 def call(typingctx, address, count, a, b, c, r):  # type: ignore[no-untyped-def]
     """Call a row loop by its address, with the addresses of the lanes of up to three operands and of the result."""
 
@@ -159,8 +163,10 @@ class Operation:
         self.defined = defined
         self.continuous = continuous or defined
         self.check = check
-        self._own = all(isinstance(f, Dispatcher) and f.__module__.startswith("ial.") for f in (forward, backward))
-        self.forward, self.backward = (f if isinstance(f, Dispatcher) else compile_users(f) for f in (forward, backward))
+        self._own = all(is_kernel(f) and f.__module__.startswith("ial.") for f in (forward, backward))
+        self.forward: Any
+        self.backward: Any
+        self.forward, self.backward = (f if is_kernel(f) else compile_users(f) for f in (forward, backward))
         taken, returned = (len(inspect.signature(f.py_func).parameters) for f in (self.forward, self.backward))
         self.arity = taken // 2
         if taken not in (2, 4, 6) or returned != taken + 2:

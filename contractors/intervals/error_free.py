@@ -9,17 +9,33 @@ Ogita, Rump, Oishi: Accurate sum and dot product, SIAM Journal on Scientific Com
 rigorous error bounds for basic building blocks of double-word arithmetic, ACM Transactions on Mathematical Software 44 (2017).
 """
 
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 from numba import types
-from numba.extending import intrinsic
 
-from ial.contractors.kernels import kernel
+from ial.contractors.kernels import intrinsic, kernel
 from ial.contractors.rounding import down, up
 
 
-@intrinsic
+def _exact_fma(a: Any, b: Any, c: Any) -> Any:
+    """Compute with fractions; `math.fma` comes with Python 3.13 only."""
+    if not (np.isfinite(a) and np.isfinite(b)):
+        return a * b + c
+    if not np.isfinite(c):
+        return c
+    exact = Fraction(float(a)) * Fraction(float(b)) + Fraction(float(c))
+    if exact == 0:
+        return a * b + c if a == 0.0 or b == 0.0 else 0.0  # of what is 0 already, the processor knows the sign
+    try:
+        rounded = float(exact)
+    except OverflowError:
+        rounded = np.inf
+    return np.copysign(rounded, 1.0 if exact > 0 else -1.0)
+
+
+@intrinsic(_exact_fma)
 def _fma(typingctx, a, b, c):  # type: ignore[no-untyped-def]
     """Return a·b + c, rounded once (IEEE 754 fusedMultiplyAdd)."""
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from ial.contractors.rounding import check_rounding
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from typing_extensions import Self  # in typing since Python 3.11
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +97,7 @@ class Paving:
         write(path, self.inner, self.boundary, self.limited, self.nodes)
 
     @classmethod
-    def load(cls, path: str | Path) -> Self:
+    def load(cls, path: str | Path) -> "Self":
         """Read a paving from a file: see `ial.contractors.paving.paving_file.read`."""
         from ial.contractors.paving.paving_file import read
 

@@ -46,11 +46,12 @@ def open_strips(obstacles: Obstacles, origins: FloatArray, angles: FloatArray, l
         normal = np.stack([-unit[:, 1], unit[:, 0]], axis=1)
         line = origins[some, None] + along[..., None] * unit[:, None]
         points = line[:, :, None] + across[:, None] * normal[:, None, None]
-        ray, *where = np.nonzero(obstacles.any_around(points, 1))
+        hit = np.nonzero(obstacles.any_around(points, 1))
+        ray = hit[0]
         if not len(ray):
             passed[some] = True
             continue
-        at, cells = obstacles.occupied_around(points[ray, *where], 1)
+        at, cells = obstacles.occupied_around(points[hit], 1)
         ray, row, column = np.unravel_index(
             np.unique(np.ravel_multi_index((ray[at], cells[:, 1], cells[:, 0]), shape := (len(some), *obstacles.mask.shape))), shape
         )

@@ -164,6 +164,7 @@ def blocks(kind: str) -> list[str]:
     return re.findall(rf"```{kind}\n(.*?)```", page, re.DOTALL)
 
 
+@pytest.mark.slow
 def test_the_page_shows_what_is_printed(ial: Cli, capsys: pytest.CaptureFixture[str]) -> None:
     polygon, *printed = blocks("text")
     Path("hall.wkt").write_text(polygon)

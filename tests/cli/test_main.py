@@ -89,6 +89,7 @@ def test_too_little_memory_is_an_error_with_status_2(capsys: pytest.CaptureFixtu
     assert "the memory does not hold" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_another_rounding_mode_is_refused(tmp_path: Path) -> None:
     upward = 0x800  # FE_UPWARD, in which codac leaves the processor
     code = f"""

@@ -7,7 +7,25 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-_KERNELS = ("kernels", "kernel_cache", "kernel_compiler", "kernel_folder", "kernel_sources", "prebuilt_kernels", "private_folder")
+_KERNELS = (
+    "interpreter",
+    "kernels",
+    "kernel_cache",
+    "kernel_compiler",
+    "kernel_folder",
+    "kernel_sources",
+    "prebuilt_kernels",
+    "private_folder",
+)
+    "interpreter",
+    "kernels",
+    "kernel_cache",
+    "kernel_compiler",
+    "kernel_folder",
+    "kernel_sources",
+    "prebuilt_kernels",
+    "private_folder",
+)
 _NEEDED = ("__init__.py", *(f"{name}.py" for name in _KERNELS))
 _TINY = """
 from numba import types
@@ -65,7 +83,7 @@ class PackageCopy:
         return sorted(self.folder.rglob("*.kernel"))
 
     def start(self, script: str = USE, **variables: str) -> "subprocess.Popen[str]":
-        others = ("IAL_CACHE_DIR", "XDG_CACHE_HOME", "NUMBA_DISABLE_JIT")
+        others = ("IAL_CACHE_DIR", "XDG_CACHE_HOME", "NUMBA_DISABLE_JIT", "COVERAGE_PROCESS_CONFIG")  # a copy is not what coverage measures
         environment = {name: value for name, value in os.environ.items() if name not in others}
         environment |= {"PYTHONPATH": str(self.folder), "HOME": str(self.home), **variables}
         lines = f"import ial\nassert ial.__file__.startswith({str(self.folder)!r})\n{script}"

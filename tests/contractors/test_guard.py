@@ -34,18 +34,21 @@ def test_what_is_tried_works_while_the_mode_is_right() -> None:
             pytest.fail(f"{name}: {error!r}")
 
 
+@pytest.mark.slow
 @unknown_processor
 @pytest.mark.parametrize("mode", ["down", "up", "zero"])
 def test_everything_refuses_another_rounding_mode(mode: str) -> None:
     assert answered("caller", "mode", MODES[mode]) == []
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(FLUSH is None or sys.platform != "linux", reason="the layout of fenv_t is known for Linux on x86 and ARM")
 def test_everything_refuses_to_flush_subnormals() -> None:
     assert FLUSH is not None
     assert answered("caller", str(FLUSH[0]), FLUSH[1]) == []
 
 
+@pytest.mark.slow
 @unknown_processor
 @pytest.mark.parametrize("mode", ["down", "up", "zero"])
 def test_what_is_shared_among_threads_refuses_workers_that_were_started_in_another_mode(mode: str) -> None:

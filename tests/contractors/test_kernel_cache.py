@@ -64,6 +64,7 @@ def test_code_is_compiled_once(start: Callable[[], Any], tmp_path: Path) -> None
     assert len(list(tmp_path.iterdir())) == 2
 
 
+@pytest.mark.slow
 def test_torn_files_are_compiled_again_with_one_line(start: Callable[[], Any], tmp_path: Path) -> None:
     start()
     whole = {file: file.read_bytes() for file in tmp_path.iterdir()}

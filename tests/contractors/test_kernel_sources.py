@@ -62,6 +62,7 @@ def test_whatever_imports_a_compiler_is_covered(sources: KernelSources) -> None:
     assert found <= set(sources.files)
 
 
+@pytest.mark.slow
 def test_so_is_all_that_this_imports(sources: KernelSources) -> None:
     reached, todo = set(), [module for module in modules() if compiles(module)]
     while todo:

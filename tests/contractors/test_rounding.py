@@ -69,6 +69,7 @@ def test_the_default_mode_is_accepted() -> None:
     check_rounding()
 
 
+@pytest.mark.slow
 @unknown_processor
 @pytest.mark.parametrize("mode", ["down", "up", "zero"])
 def test_every_entry_refuses_another_rounding_mode(mode: str) -> None:
@@ -76,6 +77,7 @@ def test_every_entry_refuses_another_rounding_mode(mode: str) -> None:
     assert printed == "True"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(FLUSH is None or sys.platform != "linux", reason="the layout of fenv_t is known for Linux on x86 and ARM")
 def test_every_entry_refuses_to_flush_subnormals() -> None:
     assert FLUSH is not None
@@ -90,6 +92,7 @@ def test_every_entry_refuses_to_flush_subnormals() -> None:
     assert printed == "True"
 
 
+@pytest.mark.slow
 @unknown_processor
 def test_a_worker_thread_in_another_mode_is_found() -> None:
     printed = run(

@@ -51,6 +51,7 @@ def _steps(poses: list[Pose]) -> list[Pose]:
     return [before.inverse() @ after for before, after in pairwise(poses)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", LOGS)
 def test_real_logs_agree_with_their_references(name: str, data_folder: Path) -> None:
     file, count, range_max, repaired = LOGS[name]
@@ -241,6 +242,7 @@ valid_lines = st.one_of(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=300, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(st.lists(valid_lines, max_size=8).map(lambda lines: "".join(lines).encode()), st.binary(max_size=40), st.integers(0, 300))
 def test_noise_is_read_or_refused_but_never_crashes(tmp_path: Path, text: bytes, noise: bytes, at: int) -> None:

@@ -14,6 +14,7 @@ from ial.errors import OutputError
 KINDS = ["mcap", "bag"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", ["intel_lab/intel-corrected.log.gz", "olin_mac_tb4/original/macfirst_floor_take_2"])
 def test_real_recordings_read_back_to_the_bit(kind: str, name: str, data_folder: Path, tmp_path: Path, canonical_steps) -> None:  # type: ignore[no-untyped-def]

@@ -256,6 +256,7 @@ def test_a_truncated_bag_is_refused(bag, kept: float) -> None:  # type: ignore[n
         list(open_recording(bag.path).readings())
 
 
+@pytest.mark.slow
 def test_damage_in_the_middle_never_escapes_as_another_error(bag) -> None:  # type: ignore[no-untyped-def]
     with bag:
         bag.mounting()

@@ -48,6 +48,7 @@ def test_lines_read_back_to_the_bit(mounting: Mounting, tmp_path: Path, readings
     assert all(json.loads(line, parse_constant=pytest.fail) for line in path.read_text().splitlines())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["intel_lab/intel-corrected.log.gz", "olin_mac_tb4/original/macfirst_floor_take_2"])
 def test_real_recordings_read_back_to_the_bit(name: str, data_folder: Path, tmp_path: Path, canonical_steps) -> None:  # type: ignore[no-untyped-def]
     source = open_recording(data_folder / name)
@@ -150,6 +151,7 @@ def test_bad_odometry_is_left_out_and_counted(bad: dict[str, object]) -> None:
     assert stream.repaired == {"odometry line that cannot be read: left out": 1, "odometry older than the one before: left out": 1}
 
 
+@pytest.mark.slow
 def test_memory_stays_flat_when_only_one_kind_arrives() -> None:
     import tracemalloc
 

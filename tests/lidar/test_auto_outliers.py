@@ -22,6 +22,7 @@ def auto(scene: Scene, **more: float) -> LocalizerConfig:
     return replace(scene.config, **{**AUTO, **more})
 
 
+@pytest.mark.slow
 def test_the_number_is_the_smallest_that_leaves_a_pose_plus_the_margin() -> None:
     for seed in range(SCENES):
         scene = random_scene(seed)
@@ -39,6 +40,7 @@ def test_the_number_is_the_smallest_that_leaves_a_pose_plus_the_margin() -> None
         assert max(each.spare_beams or 0 for each in found.hypotheses) == min(2, q)
 
 
+@pytest.mark.slow
 def test_a_truth_with_at_most_the_reported_number_of_bad_beams_is_kept_over_a_run() -> None:
     held = steps = 0
     for seed in range(SCENES):

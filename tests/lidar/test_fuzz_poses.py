@@ -28,6 +28,7 @@ def fuzzed(mode: str, poses: int) -> Tally:
     return tally
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mode", [mode for mode in ALL_MODES if mode not in SLOW])
 def test_no_consistent_pose_is_lost(mode: str) -> None:
     tally = fuzzed(mode, 1000)
@@ -53,6 +54,7 @@ def with_half_the_radius(estimate: Estimate) -> Estimate:
     return replace(estimate, radius_m=estimate.radius_m and 0.5 * estimate.radius_m)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("change", [without_a_box, with_one_more, without_a_hypothesis, with_half_the_radius])
 def test_an_answer_that_claims_too_much_is_seen(change: Callable[[Estimate], Estimate], monkeypatch: pytest.MonkeyPatch) -> None:
     class Boaster(Localizer):

@@ -57,6 +57,7 @@ def lost(seed: int, bounds: Bounds, excess: float = 1.0) -> bool:
     return False
 
 
+@pytest.mark.slow
 def test_the_truth_is_never_lost_with_the_errors_of_each_lidar() -> None:
     bounds = Bounds(0.0, 0.0, 0.0, MOTION, LIDARS)
     assert [seed for seed in range(40) if lost(seed, bounds)] == []

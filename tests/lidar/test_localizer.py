@@ -202,6 +202,7 @@ def test_a_scan_without_hits_returns_the_prediction_and_says_so() -> None:
     assert holds(estimate, walk()[6])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("outliers", [72, 1000, 1.0])
 def test_as_many_outliers_as_beams_exclude_nothing(outliers: int | float) -> None:
     localizer = Localizer(world(), outliers=outliers, config=CONFIG)
@@ -303,6 +304,7 @@ print("done")
 UPWARD = {"x86_64": 0x800, "aarch64": 0x400000}.get(platform.machine())
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(UPWARD is None or sys.platform != "linux", reason="the codes are known for Linux on x86 and ARM")
 def test_a_forked_process_localizes_alike_and_another_rounding_mode_is_refused() -> None:
     script = SCRIPT.format(libm=ctypes.util.find_library("m") or "libm.so.6", upward=UPWARD)

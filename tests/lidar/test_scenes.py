@@ -30,6 +30,7 @@ def holds(estimate: Estimate, truth: Pose, scene: Scene) -> bool:
     return estimate.status not in ("lost", "blind") and inside and any(hulls)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("first", range(0, STATIC, CHUNK))
 def test_the_truth_is_in_the_answer_to_one_scan(first: int) -> None:
     failed = []
@@ -40,6 +41,7 @@ def test_the_truth_is_in_the_answer_to_one_scan(first: int) -> None:
     assert failed == []
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("first", range(0, MOVING, CHUNK))
 def test_the_truth_stays_in_the_set_while_the_robot_moves(first: int) -> None:
     failed = []
@@ -52,12 +54,14 @@ def test_the_truth_stays_in_the_set_while_the_robot_moves(first: int) -> None:
     assert failed == []
 
 
+@pytest.mark.slow
 def test_the_scenes_would_show_a_localizer_that_trusts_too_much() -> None:
     scenes = [random_scene(seed, excess=8.0) for seed in range(CHUNK)]
     kept = sum(holds(located(scene), scene.path[0], scene) for scene in scenes)
     assert kept < 0.6 * CHUNK
 
 
+@pytest.mark.slow
 def test_the_answers_are_small() -> None:
     shares = []
     for seed in range(CHUNK):

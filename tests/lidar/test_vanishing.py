@@ -74,6 +74,7 @@ def test_a_tracked_robot_that_has_left_its_bounds_is_flagged() -> None:
     assert 0 < flagged < localized
 
 
+@pytest.mark.slow
 def test_what_is_refuted_piece_by_piece_is_rejected() -> None:
     """Cells are left, but none of their pieces: so the scan fits nowhere in the start, as a twin finds, too."""
     errors = SensorErrors(0.1, 0.02, 9, adversarial=True)  # more than the bounds allow
@@ -113,6 +114,7 @@ def drives(aside_m: float) -> Iterator[tuple[bool, Estimate, bool]]:
         yield estimate.poses.contains(world.pose_to_grid(path[-1])), estimate, everywhere.vanishing
 
 
+@pytest.mark.slow
 def test_a_prediction_beside_the_truth_leaves_hardly_anything() -> None:
     found = list(drives(0.6))
     missed = [estimate.vanishing for held, estimate, _ in found if not held and estimate.status == "localized"]

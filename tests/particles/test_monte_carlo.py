@@ -44,6 +44,7 @@ def test_a_robot_is_followed_from_a_known_pose(seed: int, kind: str) -> None:
     assert all(cloud.deviation_m < 0.6 for cloud in clouds)
 
 
+@pytest.mark.slow
 def test_a_robot_is_found_on_the_whole_map() -> None:
     right = 0
     for seed in range(4):

@@ -70,6 +70,7 @@ def test_periodic_cells_have_the_full_colour_of_their_group(tmp_path: Path) -> N
     assert pixels(read(tmp_path / "a.png"), BRIGHT[0]) > 1000
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("headings", [4, 24])
 def test_basins_of_several_environments_and_of_merged_headings(tmp_path: Path, headings: int) -> None:
     _, grounds, maps = built(["room", "nook"], headings)
@@ -78,6 +79,7 @@ def test_basins_of_several_environments_and_of_merged_headings(tmp_path: Path, h
     assert min(pixels(image, BRIGHT[0]), pixels(image, BRIGHT[1])) > 500
 
 
+@pytest.mark.slow
 def test_the_automaton_shows_each_cycle_in_its_colour(tmp_path: Path) -> None:
     made, _, _ = built(["room"])
     draw_automaton(tmp_path / "a.png", made.table, "room")

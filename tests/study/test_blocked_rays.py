@@ -15,6 +15,7 @@ from tests.study.scans import Case
 ASIDE = np.linspace(-1.0, 1.0, 41)
 
 
+@pytest.mark.slow
 def test_a_ray_is_blocked_if_all_its_neighbours_are() -> None:
     counts = {False: 0, True: 0}
     for seed in range(300):

@@ -32,6 +32,7 @@ def survey_of(grid: OccupancyGrid, config: LocalizerConfig, seed: int, outliers:
     return survey
 
 
+@pytest.mark.slow
 def test_what_was_simulated_is_measured() -> None:
     grid = replace(floor_plan(12.0, 10.0, 0.05, 3), origin=Pose(4.0, -2.0, 0.6))
     config = LocalizerConfig(bounds=Bounds(0.05, 0.0, 0.0, WHEELS))
@@ -132,6 +133,7 @@ def test_what_has_come_and_what_has_gone_is_found_on_the_map(tmp_path: Path) -> 
     assert (tmp_path / "picture.png").stat().st_size > 10_000
 
 
+@pytest.mark.slow
 def test_the_localizers_own_poses_stand_in_for_a_reference() -> None:
     grid = floor_plan(12.0, 10.0, 0.05, 3)
     path = random_walk(grid, 12, 1)

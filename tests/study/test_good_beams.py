@@ -15,6 +15,7 @@ from tests.study.scans import Case
 SAMPLES = 9
 
 
+@pytest.mark.slow
 def test_good_beams_are_those_with_a_good_point() -> None:
     """A beam that is called good has a good point nearby; one of which a sampled point is clearly good is called so."""
     counts = [0, 0, 0]

@@ -1,10 +1,13 @@
 """How many beams of a scan may be bad, where that is left open: as few as leave a pose, and a margin."""
 
 from collections.abc import Callable
-from typing import Protocol, Self, TypeVar
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from ial.contractors.paving.limits import Limit
 from ial.lidar.evidence.beams import Beams
+
+if TYPE_CHECKING:
+    from typing_extensions import Self  # in typing since Python 3.11
 
 _MANY = 1 << 12  # boxes of a set
 
@@ -31,7 +34,7 @@ class Counted(Protocol):
         """How many beams might be bad at the last scan that has left a pose."""
         ...
 
-    def within(self, outliers: int) -> Self:
+    def within(self, outliers: int) -> "Self":
         """Return what is left where at most so many beams may be bad."""
         ...
 

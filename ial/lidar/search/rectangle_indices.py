@@ -6,10 +6,12 @@ twice as long, and this is the innermost step of the localizer.
 
 from typing import Any
 
+import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
-from numba.extending import intrinsic
+
+from ial.contractors.kernels import intrinsic
 
 OFFSET = 2.0**18
 """Added to coordinates in cells, so that they are positive and cutting off the fraction rounds down."""
@@ -17,7 +19,12 @@ OFFSET = 2.0**18
 _DOUBLE, _INT32, _INT64 = ir.DoubleType(), ir.IntType(32), ir.IntType(64)
 
 
-@intrinsic
+def _rectangle_indices_python(bounds: Any, i: Any, xl: Any, yl: Any, xu: Any, yu: Any, columns: Any, rows: Any) -> Any:
+    index = (bounds[i] + np.array([xl, yl, xu, yu])).astype(np.int32) - int(OFFSET)
+    return tuple(np.clip(index, 0, [columns, rows, columns, rows]).tolist())
+
+
+@intrinsic(_rectangle_indices_python)
 def rectangle_indices(typingctx, bounds, i, xl, yl, xu, yu, columns, rows):  # type: ignore[no-untyped-def]
     """Return (left, below, right, above): table indices of the rectangle ``bounds[i] + (xl, yl, xu, yu)``, clamped to the table.
 

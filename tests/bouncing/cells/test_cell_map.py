@@ -75,6 +75,7 @@ def test_centres_are_in_the_frame_of_the_environment() -> None:
     assert made.centre(0, 2) == (Fraction(-1, 6), Fraction(31, 6))
 
 
+@pytest.mark.slow
 def test_what_cannot_be_mapped_is_refused() -> None:
     with pytest.raises(MapError, match="no cell is free, so the robot can be nowhere"):
         cell_map(drawn("## ##"))

@@ -18,6 +18,7 @@ def cosine(turn: Fraction) -> Fraction:
         return Fraction(*mpmath.libmp.to_rational(mpmath.cos(2 * mpmath.pi * turn.numerator / mpmath.mpf(turn.denominator))._mpf_))
 
 
+@pytest.mark.slow
 @given(st.fractions(-2, 2, max_denominator=720))
 def test_bounds_hold_the_cosine_and_become_narrower(turn: Fraction) -> None:
     exact = cosine(turn)
@@ -53,6 +54,7 @@ def test_halves_are_rounded_away_from_zero_in_both_directions() -> None:
     assert Headings.of_angle(Fraction(60), 6).offsets.tolist() == [[1, 0], [1, 1], [-1, 1], [-1, 0], [-1, -1], [1, -1]]
 
 
+@pytest.mark.slow
 def test_what_doubles_cannot_decide_is_decided() -> None:
     exact = cosine(Fraction(1, 5))
     for digits in (20, 40, 80):

@@ -144,6 +144,7 @@ def test_merged_headings_are_listed(made: BounceFilter, tmp_path: Path) -> None:
     assert max(len(line.split()) for line in lines) > 5
 
 
+@pytest.mark.slow
 def test_wide_tables_are_compiled(tmp_path: Path) -> None:
     # More than 65,536 states: tables of 32 bits; a mask of environment 63 takes 64.
     count = 70_000

@@ -54,6 +54,7 @@ def twin(graphs: list[LabelledGraph]) -> tuple[list[int], int]:
     return ends, most
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("free", SMALL)
 def test_every_sequence_equals_brute_force(free: MaskArray) -> None:
     found = {each.angles_deg: each for each in search_angles([Raster(free)], 4, length=3)}
@@ -67,6 +68,7 @@ def test_every_sequence_equals_brute_force(free: MaskArray) -> None:
         assert each.observations == most
 
 
+@pytest.mark.slow
 def test_the_best_comes_first_and_is_the_best_of_all_by_brute_force() -> None:
     free, angles = SMALL[1], [Fraction(45), Fraction(90), Fraction(135)]
     best = search_angles([Raster(free)], 8, angles_deg=angles, length=2)[0]

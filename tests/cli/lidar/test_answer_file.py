@@ -95,6 +95,7 @@ def killed(feed: Callable[..., Any]) -> Iterator[Callable[[int, int], bool]]:
     _killer.names = ()
 
 
+@pytest.mark.slow
 def test_killed_at_any_touch_of_a_file_it_goes_on(
     killed: Callable[[int, int], bool], feed: Callable[..., Any], expected: list[bytes]
 ) -> None:
@@ -120,6 +121,7 @@ def test_killed_in_the_middle_of_a_line_it_writes_the_rest(
     assert OUT.read_bytes() == b"".join(expected[:scans])
 
 
+@pytest.mark.slow
 def test_a_state_knows_its_file_and_refuses_any_other(feed: Callable[..., Any], refused: Refused, expected: list[bytes]) -> None:
     assert feed(3).exit_code == 0
     state, whole = STATE.read_bytes(), OUT.read_bytes()
@@ -149,6 +151,7 @@ def test_a_state_knows_its_file_and_refuses_any_other(feed: Callable[..., Any], 
     assert OUT.read_bytes() == b"".join(expected)
 
 
+@pytest.mark.slow
 def test_a_state_of_standard_output_is_none_of_a_file(feed: Callable[..., Any], refused: Refused, expected: list[bytes]) -> None:
     result = feed(2, *OPTIONS[:2], "--state", STATE)
     assert result.stdout == b"".join(expected[:2]).decode()
@@ -156,6 +159,7 @@ def test_a_state_of_standard_output_is_none_of_a_file(feed: Callable[..., Any], 
     assert feed(4, *OPTIONS[:2], "--state", STATE).stdout == b"".join(expected[2:]).decode()
 
 
+@pytest.mark.slow
 def test_a_file_that_looks_like_the_first_line_is_not_taken_for_it(
     feed: Callable[..., Any], refused: Refused, expected: list[bytes]
 ) -> None:

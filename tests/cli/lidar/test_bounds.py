@@ -3,10 +3,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pytest
+
 from ial.cli.lidar.config_file import resolve
 from ial.datasets.sample import sample_map_path
 
 
+@pytest.mark.slow
 def test_bounds_of_the_sample_are_measured_and_suggested(ial: Callable[..., Any]) -> None:
     result = ial("bounds", "--out", "found", "--to", 12)
     assert result.exit_code == 0, result.stderr
@@ -43,6 +46,7 @@ def test_motion_is_measured_from_each_scan_to_the_next_and_beams_where_wanted(ia
     assert "over steps of 4 scans" in own.stderr
 
 
+@pytest.mark.slow
 def test_a_reference_of_another_place_is_doubted(ial: Callable[..., Any]) -> None:
     ial("simulate", "--map", sample_map_path(), "--out", "run.mcap", "--seed", 1, "--scans", 6)
     moved = [line.split() for line in Path("run.tum").read_text().splitlines() if not line.startswith("#")]

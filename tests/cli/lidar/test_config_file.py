@@ -38,6 +38,7 @@ def test_without_any_source_the_defaults_hold() -> None:
     assert resolve(environment={}) == LocalizerConfig()
 
 
+@pytest.mark.slow
 @given(config=CONFIG)
 def test_what_is_written_reads_back_to_the_last_bit(tmp_path_factory: pytest.TempPathFactory, config: LocalizerConfig) -> None:
     file = tmp_path_factory.mktemp("config") / "config.yaml"

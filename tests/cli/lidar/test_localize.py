@@ -4,6 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import pytest
 import yaml
 
 from ial.datasets.trajectory import read_tum
@@ -17,6 +18,7 @@ def bounds_of(folder: Path) -> list[Any]:
     return [(each.stamp_ns, each.index, each.status, each.hypotheses, each.pose) for each in read_enclosures(folder / "enclosures.jsonl")]
 
 
+@pytest.mark.slow
 def test_the_sample_ends_localized_where_it_should(ial: Callable[..., Any], tmp_path: Path) -> None:
     result = ial("localize", "--out", "run")
     assert result.exit_code == 0
@@ -38,6 +40,7 @@ def test_json_is_the_summary_and_nothing_else(ial: Callable[..., Any], tmp_path:
     assert record["options"]["every"] == 3
 
 
+@pytest.mark.slow
 def test_never_localized_is_status_3_and_writes_results(ial: Callable[..., Any], tmp_path: Path) -> None:
     result = ial("localize", "--out", "run", "--to", 2, "--outliers", 0.5)
     assert result.exit_code == 3
@@ -46,6 +49,7 @@ def test_never_localized_is_status_3_and_writes_results(ial: Callable[..., Any],
     assert (tmp_path / "run" / "trajectory.tum").read_text() == ""
 
 
+@pytest.mark.slow
 def test_without_out_a_stamped_folder_and_a_link_to_the_latest(ial: Callable[..., Any], tmp_path: Path) -> None:
     for _ in range(2):
         assert ial("localize", "--to", 1).exit_code == 0
@@ -62,12 +66,14 @@ def test_from_every_and_to_choose_raw_scans(ial: Callable[..., Any], tmp_path: P
     assert [each.index for each in read_enclosures(tmp_path / "run" / "enclosures.jsonl")] == [1, 5, 9]
 
 
+@pytest.mark.slow
 def test_static_scans_do_not_depend_on_each_other(ial: Callable[..., Any], tmp_path: Path) -> None:
     ial("localize", "--out", "both", "--static", "--from", 30, "--every", 6)
     ial("localize", "--out", "one", "--static", "--from", 36)
     assert bounds_of(tmp_path / "both")[1:] == bounds_of(tmp_path / "one")
 
 
+@pytest.mark.slow
 def test_threads_change_nothing(ial: Callable[..., Any], tmp_path: Path) -> None:
     for threads in (1, 2):
         ial("localize", "--out", threads, "--to", 3, "--threads", threads)
@@ -75,6 +81,7 @@ def test_threads_change_nothing(ial: Callable[..., Any], tmp_path: Path) -> None
     assert bounds_of(tmp_path / "1") == bounds_of(tmp_path / "2")
 
 
+@pytest.mark.slow
 def test_a_known_start_narrows_the_first_answer(ial: Callable[..., Any], tmp_path: Path) -> None:
     ial("localize", "--out", "all", "--to", 1)
     found = bounds_of(tmp_path / "all")[0][3][0]
@@ -87,6 +94,7 @@ def test_a_known_start_narrows_the_first_answer(ial: Callable[..., Any], tmp_pat
         assert all(abs(0.5 * sum(each.x) - at[0]) < 0.6 and abs(0.5 * sum(each.y) - at[1]) < 0.6 for each in near)
 
 
+@pytest.mark.slow
 def test_the_report_names_the_measures(ial: Callable[..., Any], tmp_path: Path) -> None:
     (tmp_path / "truth.tum").write_text("1137772793.094853 0 0 0 0 0 0 1\n")
     lines = ial("localize", "--out", "run", "--to", 1, "--truth", "truth.tum").stdout.splitlines()
@@ -95,6 +103,7 @@ def test_the_report_names_the_measures(ial: Callable[..., Any], tmp_path: Path) 
     assert "where they do not: 1 beams, 1 domain" in lines
 
 
+@pytest.mark.slow
 def test_its_own_trajectory_as_truth(ial: Callable[..., Any], tmp_path: Path) -> None:
     ial("localize", "--out", "first", "--every", 3)
     truth = tmp_path / "first" / "trajectory.tum"
@@ -112,6 +121,7 @@ def test_a_truth_of_another_time_is_pointed_out(ial: Callable[..., Any], tmp_pat
     assert json.loads((tmp_path / "run" / "summary.json").read_text())["measures"]["contained"] is None
 
 
+@pytest.mark.slow
 def test_the_written_configuration_is_the_one_that_was_used(ial: Callable[..., Any], tmp_path: Path) -> None:
     ial("localize", "--out", "first", "--to", 1, "--outliers", 11, "--set", "precision.position_m=0.2")
     config = yaml.safe_load((tmp_path / "first" / "config.yaml").read_text())
@@ -120,6 +130,7 @@ def test_the_written_configuration_is_the_one_that_was_used(ial: Callable[..., A
     assert bounds_of(tmp_path / "first") == bounds_of(tmp_path / "second")
 
 
+@pytest.mark.slow
 def test_the_map_may_come_out_of_a_recording(ial: Callable[..., Any], sample: Path, tmp_path: Path) -> None:
     ial("localize", "--out", "first", "--to", 2)
     ial("localize", sample, "--map", "first/result.mcap", "--out", "second", "--to", 2)
@@ -127,6 +138,7 @@ def test_the_map_may_come_out_of_a_recording(ial: Callable[..., Any], sample: Pa
     assert [len(each.hypotheses) for each in first] == [len(each.hypotheses) for each in second]  # 0.05 is rounded to float32 there
 
 
+@pytest.mark.slow
 def test_a_scan_without_a_beam_is_counted_and_the_prediction_carried_on(
     ial: Callable[..., Any], bag: Any, room: Path, tmp_path: Path
 ) -> None:

@@ -62,6 +62,7 @@ def process() -> Iterator[Starter]:
         each.wait()
 
 
+@pytest.mark.slow
 def test_one_line_for_each_scan_with_the_enclosures_of_localize(ial: Callable[..., Any], expected: bytes) -> None:
     ial("localize", "--out", "whole")
     whole = [json.loads(line) for line in Path("whole/enclosures.jsonl").read_text().splitlines()]
@@ -74,6 +75,7 @@ def test_a_recording_in_place_of_standard_input(expected: bytes) -> None:
     assert stream([], sample_recording_path()).stdout == expected
 
 
+@pytest.mark.slow
 def test_a_line_is_out_before_the_next_scan_is_in(lines: list[bytes], process: Starter, expected: bytes) -> None:
     running = process()
     assert running.stdin is not None
@@ -98,6 +100,7 @@ def test_a_signal_ends_it_cleanly_while_it_waits(number: int, lines: list[bytes]
     assert b"1 scans: 1 localized" in said
 
 
+@pytest.mark.slow
 def test_killed_at_random_moments_nothing_is_missing_repeated_or_different(lines: list[bytes], process: Starter, expected: bytes) -> None:
     chance = random.Random(7)
     out, state = Path("out.jsonl"), Path("state")
@@ -120,6 +123,7 @@ def test_killed_at_random_moments_nothing_is_missing_repeated_or_different(lines
     assert out.read_bytes() == expected
 
 
+@pytest.mark.slow
 def test_a_live_source_that_went_on_is_followed_from_where_it_is(lines: list[bytes]) -> None:
     state = Path("state")
     first = stream(lines[:20], "--state", state).stdout.splitlines()
@@ -128,6 +132,7 @@ def test_a_live_source_that_went_on_is_followed_from_where_it_is(lines: list[byt
     assert {json.loads(line)["status"] for line in second} == {"localized"}
 
 
+@pytest.mark.slow
 def test_a_deadline_marks_the_answers_that_it_made_coarser(lines: list[bytes]) -> None:
     result = stream(lines, "--deadline", 0.001)
     assert result.returncode == 0

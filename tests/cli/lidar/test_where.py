@@ -30,6 +30,7 @@ def test_the_map_of_the_sample_is_told_from_another(ial: Callable[..., Any], oth
     assert len(lines[-1]["maps"]["map"]) == 1
 
 
+@pytest.mark.slow
 def test_as_json_and_a_robot_that_is_in_none_of_the_maps(ial: Callable[..., Any], other: Path) -> None:
     result = ial("where", "--map", other, "--json", "--to", 4, "--set", "max_outliers=0.15")
     record = json.loads(result.stdout)

@@ -10,6 +10,7 @@ from ial.results.lidar.enclosures import read_enclosures
 Cli = Callable[..., Any]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["mcap", "bag"])
 def test_a_converted_recording_gives_the_same_enclosures(ial: Cli, sample: Path, sample_map: Path, tmp_path: Path, suffix: str) -> None:
     result = ial("convert", sample, f"copy.{suffix}")

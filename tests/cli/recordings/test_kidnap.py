@@ -8,6 +8,7 @@ from ial.datasets.opening import open_recording
 from ial.datasets.trajectory import read_tum
 
 
+@pytest.mark.slow
 def test_a_kidnapped_recording_and_its_reference_are_written(ial: Callable[..., Any], sample: Path, tmp_path: Path) -> None:
     ial("localize", "--out", "run")
     result = ial("kidnap", sample, "carried.mcap", "--at", "10:25", "--at", "30:3", "--truth", tmp_path / "run" / "trajectory.tum")
@@ -23,6 +24,7 @@ def test_a_jump_that_makes_no_sense_is_refused(refused: Callable[..., str], samp
     assert message in refused("kidnap", sample, "carried.mcap", "--at", at)
 
 
+@pytest.mark.slow
 def test_the_reference_is_never_replaced(ial: Callable[..., Any], refused: Callable[..., str], sample: Path, tmp_path: Path) -> None:
     ial("localize", "--out", "run")
     truth = tmp_path / "run" / "trajectory.tum"

@@ -49,6 +49,7 @@ def inputs(ial: Cli, room: Path) -> None:
     assert ial("bounce", "build", "hall.wkt", "--out", "hall.npz").exit_code == 0
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("inputs")
 @pytest.mark.parametrize("writer", WRITERS)
 def test_what_exists_is_replaced_only_on_request(ial: Cli, refused: Refused, writer: str) -> None:
@@ -148,6 +149,7 @@ def test_what_is_read_is_never_replaced(refused: Refused, room: Path, read: str,
     assert given.read_bytes() == out.read_bytes() == held
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("command", "files"), [("localize", FILES), ("bounds", BOUNDS_FILES)])
 def test_the_results_of_a_run_are_replaced_together_and_that_is_said(
     ial: Cli, refused: Refused, command: str, files: tuple[str, ...]
@@ -192,6 +194,7 @@ def test_a_folder_in_which_nothing_may_be_written_is_found_out_before_any_work(r
         assert "nothing may be written in its folder" in refused("convert", "missing.bag", "closed/a.mcap")
 
 
+@pytest.mark.slow
 def test_only_a_link_of_ones_own_is_turned_to_the_latest_run(ial: Cli, tmp_path: Path) -> None:
     Path("out").mkdir()
     Path("out/latest").symlink_to(tmp_path)

@@ -32,6 +32,7 @@ def enumerated(lower: FloatArray, upper: FloatArray, outliers: int) -> Boxes:
     return Boxes(hull_lower, hull_upper)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("count", "dimension"), [(1, 2), (3, 2), (7, 1), (7, 2), (6, 3), (9, 3), (5, 4), (6, 5)])
 def test_the_exact_hull_is_that_of_all_choices_of_enough_boxes(count: int, dimension: int) -> None:
     lower, upper = random_bounds(120, count, dimension, seed=count)

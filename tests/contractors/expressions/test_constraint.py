@@ -17,6 +17,7 @@ from tests.contractors.formulas import assert_same, boxes_around, is_known, lost
 x, y = variables("x y")
 
 
+@pytest.mark.slow
 def test_neither_a_solution_nor_another_point_is_lost_from_its_side() -> None:
     rng = np.random.default_rng(1)
     names = [*OPERATIONS, *(name for name, operation in OPERATIONS.items() if operation.defined)]

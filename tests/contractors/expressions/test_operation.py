@@ -165,12 +165,20 @@ def one(al: float, au: float) -> tuple[float, float]:
             ValueError,
             "'bad' must have one to three operands",
         ),
-        (lambda al, au: al, lambda rl, ru, al, au: (al, au), TypeError, "the function forward of the operation 'bad' cannot be compiled"),
-        (one, lambda rl, ru, al, au: str(rl)[missing], TypeError, "the function backward of the operation 'bad' cannot be compiled"),
     ],
 )
 def test_functions_that_are_no_operation(forward: Any, backward: Any, error: type[Exception], message: str) -> None:
     with pytest.raises(error, match=message):
+        Operation("bad", forward, backward)
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    ("forward", "backward", "direction"),
+    [(lambda al, au: al, lambda rl, ru, al, au: (al, au), "forward"), (one, lambda rl, ru, al, au: str(rl)[missing], "backward")],
+)
+def test_functions_that_numba_cannot_compile(forward: Any, backward: Any, direction: str) -> None:
+    with pytest.raises(TypeError, match=f"the function {direction} of the operation 'bad' cannot be compiled"):
         Operation("bad", forward, backward)
 
 

@@ -41,6 +41,7 @@ def test_a_tape_gives_what_intervals_give_one_by_one() -> None:
     assert 50 < empty < 1500
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rounds", [1, 3])
 def test_no_point_with_its_value_in_the_target_is_lost(rounds: int) -> None:
     rng = np.random.default_rng(2 + rounds)

@@ -19,6 +19,7 @@ def exact(ax: float, ay: float, bx: float, by: float, cx: float, cy: float) -> f
     return float((turn > 0) - (turn < 0))
 
 
+@pytest.mark.slow
 @settings(max_examples=500)
 @given(st.lists(coordinate, min_size=6, max_size=6))
 def test_orientation_is_exact(points: list[float]) -> None:

@@ -61,6 +61,7 @@ def points() -> FloatArray:
     return np.array(list(solutions(4000, 1)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(5))
 def test_a_point_that_satisfies_the_relation_is_never_lost(points: FloatArray, seed: int) -> None:
     boxes = grown(points, seed)

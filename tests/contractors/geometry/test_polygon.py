@@ -60,6 +60,7 @@ SCENES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("outline", "holes"), SCENES)
 def test_a_point_is_kept_by_each_side_it_is_on_and_by_no_other(outline: list[Ring], holes: list[Ring]) -> None:
     rng = np.random.default_rng(6)

@@ -60,6 +60,7 @@ sides = st.one_of(
 boxes = st.tuples(sides, sides).map(list)
 
 
+@pytest.mark.slow
 @settings(max_examples=300)
 @given(st.lists(st.tuples(points, points), min_size=1, max_size=5), boxes)
 def test_contraction_is_the_exact_hull_but_for_rounding(segments: list[tuple[Point, Point]], box: list[tuple[float, float]]) -> None:

@@ -37,6 +37,7 @@ def test_each_box_becomes_its_rectangle_along_the_chosen_axes(ax: Axes) -> None:
     assert right >= 8.0
 
 
+@pytest.mark.slow
 def test_what_is_drawn_covers_its_pixels_without_gaps(ax: Axes) -> None:
     # 100 000 boxes that fill the square: inner ones to the left, boundary to the right.
     at = np.stack(np.meshgrid(np.arange(400) / 400.0, np.arange(250) / 250.0), axis=-1).reshape(-1, 2)

@@ -128,6 +128,7 @@ def test_the_axes_of_constraints_are_known() -> None:
         Propagation(x == 1, variables("u") == 1)
 
 
+@pytest.mark.slow
 @given(st.integers(0, 10**6))
 def test_no_solution_is_lost_and_rows_do_not_depend_on_each_other(seed: int) -> None:
     random = np.random.default_rng(seed)

@@ -121,6 +121,7 @@ def test_a_consistent_pose_stays(at_the_cut: bool) -> None:
     assert sharp > 0.15 * WORLDS  # with one outlier less, the pose is often cut off: the twin is at the edge
 
 
+@pytest.mark.slow
 def test_every_consistent_pose_of_the_cells_stays() -> None:
     edge = 0
     for seed in range(WORLDS):
@@ -149,6 +150,7 @@ def test_outer_faces_are_those_without_a_neighbour() -> None:
                     assert outer[number, side, axis] == (case.neighbour(place, axis, step) not in places)
 
 
+@pytest.mark.slow
 def test_outer_faces_are_moved_to_the_outermost_pieces_that_fit() -> None:
     dropped = moved = torn = 0
     for seed in range(WORLDS):

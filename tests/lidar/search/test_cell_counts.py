@@ -51,6 +51,7 @@ class Case:
         return found
 
 
+@pytest.mark.slow
 def test_the_cell_that_holds_a_consistent_pose_is_kept_and_its_count_is_not_too_high() -> None:
     sharp = 0
     for seed in range(WORLDS):

@@ -44,6 +44,7 @@ def random_mask(random: np.random.Generator) -> np.ndarray:
     return mask
 
 
+@pytest.mark.slow
 def test_every_ray_of_a_blocked_strip_meets_a_cell() -> None:
     found = tried = 0
     for seed in range(3000):

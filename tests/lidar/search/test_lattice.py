@@ -61,6 +61,7 @@ def batches(draw: Callable[..., float]) -> tuple[Lattice, Boxes]:
     return lattice, Boxes.of(*rows)
 
 
+@pytest.mark.slow
 @given(batches(), st.sampled_from([PLENTY, 5000, 50, 1]))
 @settings(max_examples=150)
 def test_the_cells_are_distinct_and_cover_every_point_of_every_box(batch: tuple[Lattice, Boxes], max_cells: int) -> None:
@@ -217,6 +218,7 @@ def test_a_heading_a_bit_beyond_the_edge_of_a_layer_takes_the_layer_behind_it(he
         assert (found[:, 1] >= stop).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("heading", [0.5, 0.1, 0.02])
 def test_an_arc_across_the_cut_takes_the_layer_in_which_it_ends(heading: float) -> None:
     lattice = Lattice(1.0, heading)

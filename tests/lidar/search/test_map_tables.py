@@ -63,6 +63,7 @@ def named(poses: PoseSet) -> set[bytes]:
     return {row.tobytes() for row in bounds}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("outliers", [5, "auto"])
 @pytest.mark.parametrize("seed", [1, 2, 3, 4])
 def test_answers_do_not_depend_on_sections(seed: int, outliers: int | str, small_sections: None, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -203,6 +204,7 @@ def test_beams_that_reach_across_the_map_are_no_trouble(small_sections: None) ->
     assert model.sections[0, 0].occupied.table.shape == (301, 301)
 
 
+@pytest.mark.slow
 def test_answers_do_not_depend_on_sections_where_beams_without_return_see_farther_than_others(
     small_sections: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:

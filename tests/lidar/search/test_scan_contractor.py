@@ -25,6 +25,7 @@ def worlds(first: int = 0) -> list[tuple[World, np.random.Generator]]:
     return made
 
 
+@pytest.mark.slow
 def test_a_box_with_a_consistent_pose_is_never_emptied() -> None:
     sharp = 0
     for seed, (world, random) in enumerate(worlds()):
@@ -36,6 +37,7 @@ def test_a_box_with_a_consistent_pose_is_never_emptied() -> None:
     assert sharp > 0.3 * WORLDS  # with one outlier less, the same boxes are often emptied: the twin is at the edge
 
 
+@pytest.mark.slow
 def test_contraction_keeps_every_consistent_pose() -> None:
     """Poses on the faces and corners of boxes too: where a box is not narrowed, its bounds keep their bits."""
     lost, narrowed = [], 0

@@ -44,6 +44,7 @@ def scenes(draw: st.DrawFn) -> tuple[np.ndarray, float, tuple[Side, Side]]:
     return mask, resolution, ((x[0], x[1]), (y[0], y[1]))
 
 
+@pytest.mark.slow
 @settings(max_examples=500)
 @given(scenes())
 def test_the_outside_is_the_exact_hull_rounded_outward_once(scene: tuple[np.ndarray, float, tuple[Side, Side]]) -> None:

@@ -57,6 +57,7 @@ def scenes(draw: st.DrawFn) -> tuple[np.ndarray, float, Box]:
     return mask, resolution, (x[0], x[1], y[0], y[1])
 
 
+@pytest.mark.slow
 @settings(max_examples=600)
 @given(scenes())
 def test_meets_is_never_wrongly_false_and_wrongly_true_only_within_the_slack(scene: tuple[np.ndarray, float, Box]) -> None:
@@ -69,6 +70,7 @@ def test_meets_is_never_wrongly_false_and_wrongly_true_only_within_the_slack(sce
         assert exact_hull(mask, resolution, box, slack=Fraction(9 * ROUNDINGS * resolution)) is not None
 
 
+@pytest.mark.slow
 @settings(max_examples=600)
 @given(scenes())
 def test_contraction_is_the_exact_hull_rounded_outward_once(scene: tuple[np.ndarray, float, Box]) -> None:

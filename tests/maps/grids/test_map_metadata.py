@@ -111,6 +111,7 @@ def test_impossible_values_are_refused_with_the_path(tmp_path: Path, changes: di
     assert str(file) in str(caught.value)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("content", "text"),
     [

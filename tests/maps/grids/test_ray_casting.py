@@ -31,6 +31,7 @@ def distance_to_cells(mask: np.ndarray, resolution: float, x: float, y: float, a
     return float(np.maximum(enter[hit], 0.0).min()) if hit.any() else math.inf
 
 
+@pytest.mark.slow
 @settings(max_examples=1000)
 @given(
     bits=st.integers(0, 2**35 - 1),

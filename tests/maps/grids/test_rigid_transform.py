@@ -36,6 +36,7 @@ def contains_modulo_turn(lower: float, upper: float, angle: mpmath.mpf) -> bool:
     return any(lower <= angle + turns * 2 * mp.pi <= upper for turns in range(near - 2, near + 3))
 
 
+@pytest.mark.slow
 @settings(max_examples=300)
 @given(coordinates, coordinates, yaws, pairs, pairs, st.floats(-math.pi, math.pi), st.floats(0, 3), st.booleans())
 def test_the_corners_stay_inside(

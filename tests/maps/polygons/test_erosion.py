@@ -33,6 +33,7 @@ def twin(raster: Raster, radius: Fraction, rule: str) -> list[list[bool]]:
     return [[clear(row, column) for column in range(columns)] for row in range(rows)]
 
 
+@pytest.mark.slow
 @given(masks, radii, st.sampled_from(["inside", "centre"]), st.sampled_from([Fraction(1), Fraction(2, 3)]))
 def test_erosion_is_what_the_definition_says(free: np.ndarray, radius: Fraction, rule: str, cell: Fraction) -> None:
     raster = Raster(free, cell)

@@ -28,6 +28,7 @@ def polygons(draw: st.DrawFn) -> Polygon:
         return outer
 
 
+@pytest.mark.slow
 @given(polygons(), st.sampled_from([Fraction(1, 2), Fraction(1), Fraction(2)]))
 def test_cells_are_free_exactly_if_they_lie_in_the_polygon(polygon: Polygon, cell: Fraction) -> None:
     area = shapely.Polygon(polygon.outer, polygon.holes)  # quarters are exact in doubles, and so are these predicates

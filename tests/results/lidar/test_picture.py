@@ -30,6 +30,7 @@ def drawn(path: Path, grid: OccupancyGrid, run: list[Any], **options: Any) -> np
     return image
 
 
+@pytest.mark.slow
 def test_a_run_with_a_reference(sample_run: list[Any], tmp_path: Path) -> None:
     poses = [estimate.pose for _, estimate in sample_run]
     stamps = [step.stamp_ns for step, _ in sample_run]
@@ -46,6 +47,7 @@ def test_without_a_reference_none_is_drawn(estimate_of: Callable[..., Any], grid
     assert not has(image, STATUS_COLOURS["localized"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [0, 1, 2000])
 def test_runs_of_any_length(estimate_of: Callable[..., Any], grid: OccupancyGrid, tmp_path: Path, count: int) -> None:
     step, estimate = estimate_of(0, BOX, status="localized")
@@ -58,6 +60,7 @@ def test_a_scan_that_left_no_pose(estimate_of: Callable[..., Any], grid: Occupan
     assert has(drawn(tmp_path / "picture.png", grid, [estimate_of(0, status="blind")]), STATUS_COLOURS["blind"])
 
 
+@pytest.mark.slow
 def test_vanishing_scans_are_marked(estimate_of: Callable[..., Any], grid: OccupancyGrid, tmp_path: Path) -> None:
     for marked in (False, True):
         run = [estimate_of(0, BOX, status="localized"), estimate_of(1, BOX, status="localized", vanishing=marked)]
