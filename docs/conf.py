@@ -35,7 +35,7 @@ html_theme_options = {"show_toc_level": 2, "use_download_button": False, "use_fu
 
 
 def draw_pictures(app):
-    """Run the examples of the pages, which write the pictures that the pages show."""
+    """Draw the house, and run the examples of the pages, which write the pictures that the pages show."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -43,6 +43,7 @@ def draw_pictures(app):
     examples = runpy.run_path(str(docs / "examples.py"))
     pictures = docs / "_build" / "pictures"
     pictures.mkdir(parents=True, exist_ok=True)
+    runpy.run_path(str(docs / "house.py"))["draw"](pictures / "house.png")
     with contextlib.chdir(pictures):
         for name in examples["PAGES"]:
             for section in examples["sections"](docs / name).values():
