@@ -24,6 +24,7 @@ ACROSS = {  # tests of no single file, and what they are of
     "maps/test_package.py": "what importing the package costs",
     "results/test_bounce_pictures.py": "one filter in every picture",
     "study/test_independence.py": "measures share no code with what they measure",
+    "test_benches.py": "what the benches import and edit",
     "test_examples.py": "examples in docstrings",
     "test_house.py": "the rules of the house",
     "test_mirror.py": "this one",
