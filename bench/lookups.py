@@ -78,7 +78,14 @@ class Lookups:
         self._flat = contractor.occupied.bordered.reshape(-1)[BORDER:]
         self._q = contractor.beams.outliers
         beams = contractor.beams
-        evidence = (beams.ends, beams.directions, beams.errors, beams.outliers, contractor.map_error_m, contractor.occupied.resolution)
+        evidence = (
+            beams.ends,
+            beams.directions,
+            beams.errors,
+            beams.outliers,
+            beams.map_error_m,
+            contractor.occupied.resolution,
+        )
         self._firsts = np.empty(len(boxes) + 1, dtype=np.int64)
         self._indices = np.empty((0, 4), dtype=np.uint32)
         for _ in range(2):  # the first pass counts, the second records

@@ -68,7 +68,7 @@ def recorded(case: Case) -> tuple[ScanContractor, list[Boxes]]:
     with mock.patch.object(pose_contractor, "ScanContractor", Listener):
         Localizer(case.grid, config=case.config).locate(case.scan)
     listener = made[0]
-    return ScanContractor(listener.beams, listener.occupied, listener.map_error_m), batches
+    return ScanContractor(listener.beams, listener.occupied), batches
 
 
 def measure(case: Case, threads: list[int]) -> Iterator[tuple[object, ...]]:

@@ -105,7 +105,7 @@ def answers(run: Run) -> Iterator[Answer]:
             error_m=math.hypot(estimate.pose.x - reference.x, estimate.pose.y - reference.y),
             vanishing=estimate.vanishing,
             volume=volume,
-            leeway=leeway(beams, bounds.map_error_m),
+            leeway=leeway(beams),
             cell=cell,
             half_width=estimate.hypotheses[0].half_widths[0],
             error=bounds.of(step.scan.frame_id).range_error_m + bounds.map_error_m,

@@ -189,5 +189,5 @@ class Atlas:
             pose=None if place is None else hypotheses[place][0].centre,
             outliers_allowed=known.outliers if beams.informative else beams.outliers,
             elapsed_s=time.perf_counter() - begun,
-            vanishing=len(known) > 0 and is_vanishing(known.by_map.values(), beams, self.config.bounds.map_error_m),
+            vanishing=len(known) > 0 and is_vanishing(known.by_map.values(), beams),
         )

@@ -174,6 +174,6 @@ class Localizer:
             radius_m=None if pose is None else radius(poses, pose, self.grid),
             uninformative=not beams.informative,
             limited=poses.limited,
-            vanishing=len(poses) > 0 and is_vanishing([poses], beams, self.config.bounds.map_error_m),
+            vanishing=len(poses) > 0 and is_vanishing([poses], beams),
             elapsed_s=time.perf_counter() - begun,
         )

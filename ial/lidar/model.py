@@ -133,7 +133,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         """Return what is left after a motion and a scan. A set of ordinary size is laid out and tried in one go."""
         if motion is None or not reading.informative or states.unconfirmed.any():
             return self.contract(self.predict(states, motion), reading)
-        self.sections.reach(reading, self.config.bounds.map_error_m)
+        self.sections.reach(reading)
         volume = states.boxes.volume()
         moved = self._within_map(move(in_rows(states.boxes), motion))
         keys = [key for key, _, _ in self.sections.parts(moved)]
@@ -149,7 +149,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         """Return the poses that a scan allows. Confirmed and unconfirmed ones stay apart while both survive; what is both is confirmed."""
         if not reading.informative:
             return states
-        self.sections.reach(reading, self.config.bounds.map_error_m)
+        self.sections.reach(reading)
         return within_budget(reading, states, lambda most: self._contracted(states, most))
 
     def _contracted(self, states: PoseSet, reading: Beams) -> PoseSet:
@@ -175,7 +175,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         coarse = self.lattice.widths * _COARSE
         if not (boxes.width() > coarse).any():
             return self._tried(tables, self.lattice.bitmaps(boxes), boxes, reading)
-        contractor = PoseContractor(reading, tables.occupied, tables.domain, self.config.bounds.map_error_m)
+        contractor = PoseContractor(reading, tables.occupied, tables.domain)
         left = self._deadline.left_s
         # What the clock leaves half done is to be equally coarse everywhere: the next scan goes on from there.
         order: Order = "depth" if left is None else "breadth"
@@ -196,7 +196,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
             if not portion:
                 return PoseSet(boxes, limited="time")
             part = CellBitmaps(bitmaps.keys[start : start + portion], bitmaps.words[start : start + portion])
-            words, least = count_cells(part, self.lattice, reading, tables.occupied, tables.domain, self.config.bounds.map_error_m)
+            words, least = count_cells(part, self.lattice, reading, tables.occupied, tables.domain)
             left = CellBitmaps(part.keys, words)
             total += len(left)
             if total > self.config.max_boxes:
@@ -223,7 +223,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         """Return the cells from which not too many beams are bad or blocked, and how many are at least."""
         if tables.bits is None:
             return cells, bad
-        bad = count_blocked(cells, bad, reading, self.lattice.parts, tables.occupied, tables.bits, self.config.bounds.map_error_m)
+        bad = count_blocked(cells, bad, reading, self.lattice.parts, tables.occupied, tables.bits)
         rows = bad <= reading.outliers
         return cells[rows], bad[rows]
 
@@ -236,7 +236,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         if not halvings or not reading.informative or poses.limited or not 0 < len(poses) <= _REFINED or poses.unconfirmed.any():
             return poses
         allowed = reading.allowing(poses.outliers)
-        cut, kept = refine_border(poses.boxes, self.lattice, self.sections, allowed, self.config.bounds.map_error_m, halvings)
+        cut, kept = refine_border(poses.boxes, self.lattice, self.sections, allowed, halvings)
         left = replace(poses, boxes=cut)[kept]
         whole = mend(poses.boxes, self.lattice, cut, kept, left.clusters)
         return left if whole is kept else replace(poses, boxes=cut)[whole]

@@ -8,7 +8,7 @@ from ial.lidar.evidence.beams import Beams
 from ial.lidar.pose_set import PoseSet
 
 
-def is_vanishing(left: Iterable[PoseSet], beams: Beams, map_error_m: float) -> bool:
+def is_vanishing(left: Iterable[PoseSet], beams: Beams) -> bool:
     """Return whether hardly anything is left: a smaller volume than the `leeway` of the beams.
 
     Parameters
@@ -17,8 +17,6 @@ def is_vanishing(left: Iterable[PoseSet], beams: Beams, map_error_m: float) -> b
         What a scan has left in each map, cut back as far as `LidarModel.refine` can; perhaps nothing.
     beams
         The evidence of the scan, and how many of its beams might be bad.
-    map_error_m
-        How far the map may be wrong.
 
     Returns
     -------
@@ -28,10 +26,10 @@ def is_vanishing(left: Iterable[PoseSet], beams: Beams, map_error_m: float) -> b
     sets = list(left)
     if not beams.informative or any(each.limited or each.unconfirmed.any() for each in sets):
         return False
-    return sum(each.boxes.volume() for each in sets) < leeway(beams, map_error_m)
+    return sum(each.boxes.volume() for each in sets) < leeway(beams)
 
 
-def leeway(beams: Beams, map_error_m: float) -> float:
+def leeway(beams: Beams) -> float:
     """Return the volume of poses (m² rad) that the stated errors of a scan's beams leave open around a pose.
 
     With e for the errors of range and map together, a robot that is moved by ±e along x or y moves the ends of its beams by as much as the
@@ -45,12 +43,10 @@ def leeway(beams: Beams, map_error_m: float) -> float:
     ----------
     beams
         The evidence of the scan.
-    map_error_m
-        How far the map may be wrong.
     """
     if not len(beams.ends):
         return 0.0
     along, across = beams.errors.mean(axis=0)
     distance = np.hypot(*beams.ends.T).mean()
-    error = along + map_error_m
+    error = along + beams.map_error_m
     return float(8.0 * error**2 * (across + error) / max(distance, error))

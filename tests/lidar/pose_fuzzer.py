@@ -119,7 +119,7 @@ def _contract(drive: Drive, oracle: Oracle, tally: Tally, effort: int) -> None:
     for number, moment in enumerate(drive.moments):
         used = UsedBeams.of(moment.scan, drive.config)
         allowed = int(random.integers(0, len(used) + 2))
-        contractor = ScanContractor(scan_beams(moment.scan, drive.config).allowing(allowed), occupied, drive.config.bounds.map_error_m)
+        contractor = ScanContractor(scan_beams(moment.scan, drive.config).allowing(allowed), occupied)
         poses = oracle.candidates(drive, moment, "map 0", effort, random)
         poses = poses[consistent(used, poses, oracle.obstacles, allowed)]
         widths = random.choice([0.0, 1e-9, 0.01, 0.3, 3.0], poses.shape)

@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from dataclasses import replace
 from fractions import Fraction
 
 import mpmath
@@ -65,13 +66,13 @@ def test_a_beam_that_just_reaches_a_cell_fits_and_one_that_does_not_is_told_apar
         reading = up(row.edge - Fraction(x))
         for theta in (0.0, float(random.uniform(-3.0, 0.0))):
             at = Boxes.of([(x, x), (float(3 * row.width), float(4 * row.width)), (theta, 0.0)])
-            contractor = ScanContractor(beam(reading), row.occupied, 0.0)
+            contractor = ScanContractor(beam(reading), row.occupied)
             assert contractor.fits(at)[0]
             assert contractor.contract(at).contain([x, at.lower[0, 1], 0.0])[0]
         short = reading - float(3.0 * MARGIN * row.width)
-        assert not ScanContractor(beam(short), row.occupied, 0.0).fits(
-            at[[0]] if theta == 0.0 else Boxes.of([(x, x), (0.1, 0.2), (0.0, 0.0)])
-        )[0]
+        assert not ScanContractor(beam(short), row.occupied).fits(at[[0]] if theta == 0.0 else Boxes.of([(x, x), (0.1, 0.2), (0.0, 0.0)]))[
+            0
+        ]
 
 
 @pytest.mark.parametrize("resolution", RESOLUTIONS)
@@ -87,7 +88,7 @@ def test_the_last_point_of_a_cell_of_the_lattice_is_not_lost(resolution: float, 
         reading = up(row.edge - Fraction(x))
         y = 5.0 * lattice.part_m
         middle = Boxes.of([(x - 0.6 * lattice.position_m, x - 0.4 * lattice.position_m), (y, y), (-half, -half)])
-        words, least = count_cells(lattice.bitmaps(middle), lattice, beam(reading), row.occupied, row.domain, 0.0)
+        words, least = count_cells(lattice.bitmaps(middle), lattice, beam(reading), row.occupied, row.domain)
         assert words.any(), "the cell that ends at x holds a pose from which the beam just touches"
         assert least[words.any(axis=1)].min() == 0
 
@@ -107,7 +108,7 @@ def test_answers_of_a_part_of_a_map_are_those_of_the_whole(resolution: float) ->
         x, y = lattice.position_m * int(random.integers(2, 90)), 5.0 * lattice.part_m
         reading = 199.0 * resolution - x - float(random.uniform(0.0, 0.01)) * resolution
         bitmaps = lattice.bitmaps(Boxes.of([(x - 0.6 * lattice.position_m, x - 0.4 * lattice.position_m), (y, y), (-half, -half)]))
-        (words, least), (part, fewest) = (count_cells(bitmaps, lattice, beam(reading), *each, 0.0) for each in tables)
+        (words, least), (part, fewest) = (count_cells(bitmaps, lattice, beam(reading), *each) for each in tables)
         assert np.array_equal(words, part)
         assert np.array_equal(least, fewest)
         kept += bool(words.any())
@@ -125,7 +126,7 @@ def test_headings_far_from_0_lose_no_pose(theta: float) -> None:
     beams = Beams(np.array([[c * end[0] + s * end[1], c * end[1] - s * end[0]]]), np.array([[1.0, 0.0]]), np.zeros((1, 2)), 0)
     bounds = (theta, theta) if math.isfinite(theta) else (-math.inf, math.inf)
     at = Boxes(np.array([[1.0, 1.0, bounds[0]]]), np.array([[1.0, 1.0, bounds[1]]]))
-    contractor = ScanContractor(beams, index, 0.001)
+    contractor = ScanContractor(replace(beams, map_error_m=0.001), index)
     assert contractor.fits(at)[0]
     assert not contractor.contract(at).empty[0]
 
@@ -225,7 +226,7 @@ def test_a_laser_that_is_far_from_its_robot_sees_nothing_blocked() -> None:
         one = np.ones(1)
         rays = Rays(np.array([[-away, 0.0]]), 0.0 * one, 1e-9 * one, (2.0 + away) * one, np.array([-1]), 0.02 * one)
         beams = Beams(np.empty((0, 2)), np.empty((0, 2)), np.empty((0, 2)), 0, rays)
-        assert count_blocked(at, np.zeros(1, np.int16), beams, 2, index, bits, 0.0).tolist() == [blocked]
+        assert count_blocked(at, np.zeros(1, np.int16), beams, 2, index, bits).tolist() == [blocked]
 
 
 def test_what_cannot_be_counted_is_refused_where_it_is_asked_for() -> None:

@@ -56,7 +56,7 @@ def scan() -> LaserScan:
 
 
 def beams() -> Beams:
-    return scan_beams(scan(), CONFIG)
+    return replace(scan_beams(scan(), CONFIG), map_error_m=0.01)
 
 
 def around(turns: float) -> Boxes:
@@ -97,7 +97,7 @@ def test_a_turn_or_more_is_the_full_circle(angles: tuple[float, float]) -> None:
         assert (turned.lower[0, 2], turned.upper[0, 2]) == (-PI_UPPER, PI_UPPER)
     model = LidarModel(room(), CONFIG)
     assert np.array_equal(model.within(box).boxes.lower, model.within(full).boxes.lower)
-    assert ScanContractor(beams(), model.sections[0, 0].occupied, 0.01).fits(box).all()
+    assert ScanContractor(beams(), model.sections[0, 0].occupied).fits(box).all()
 
 
 @pytest.mark.parametrize("turns", TURNS)
@@ -121,8 +121,8 @@ def test_every_operation_on_boxes_takes_any_turn(turns: int) -> None:
 def test_a_contractor_keeps_the_truth_and_the_turn(turns: int) -> None:
     model = LidarModel(room(), CONFIG)
     tables = model.sections[0, 0]
-    scan_only = ScanContractor(beams(), tables.occupied, 0.01)
-    for contractor in (scan_only, PoseContractor(beams(), tables.occupied, tables.domain, 0.01)):
+    scan_only = ScanContractor(beams(), tables.occupied)
+    for contractor in (scan_only, PoseContractor(beams(), tables.occupied, tables.domain)):
         box = around(turns)
         contracted = contractor.contract(box)
         assert np.array_equal(contracted.lower[:, 2], box.lower[:, 2])
@@ -130,7 +130,7 @@ def test_a_contractor_keeps_the_truth_and_the_turn(turns: int) -> None:
         assert (box.lower <= contracted.lower).all()
         assert (contracted.upper <= box.upper).all()
         assert PoseSet(contracted).contains(TRUTH)
-    paved = pave(PoseContractor(beams(), tables.occupied, tables.domain, 0.01), around(turns), 0.05).boxes
+    paved = pave(PoseContractor(beams(), tables.occupied, tables.domain), around(turns), 0.05).boxes
     assert PoseSet(paved).contains(TRUTH)
     assert len(paved) < 100
     both = Boxes.concatenate([paved, move(paved, STILL)])  # as they were given, and in the form
@@ -168,8 +168,8 @@ def test_empty_rows_stay_empty_rows_and_are_in_no_cell() -> None:
         room().boxes_to_map(EMPTY_ROWS),
         move(EMPTY_ROWS, STILL),
         move(EMPTY_ROWS, Motion.unknown()),
-        ScanContractor(everything, tables.occupied, 0.01).contract(EMPTY_ROWS),
-        PoseContractor(everything, tables.occupied, tables.domain, 0.01).contract(EMPTY_ROWS),
+        ScanContractor(everything, tables.occupied).contract(EMPTY_ROWS),
+        PoseContractor(everything, tables.occupied, tables.domain).contract(EMPTY_ROWS),
     ):
         assert found.empty.tolist() == [True, True, False]
         assert (found.lower[:2] == np.inf).all()
@@ -193,9 +193,9 @@ def test_empty_rows_stay_empty_rows_and_are_in_no_cell() -> None:
         lambda tables: move(NAN, STILL),
         lambda tables: Lattice(0.2, 0.1).cover(NAN, 100),
         lambda tables: cluster(NAN, circular=(2,)),
-        lambda tables: ScanContractor(beams(), tables.occupied, 0.01).fits(NAN),
-        lambda tables: ScanContractor(beams(), tables.occupied, 0.01).contract(NAN),
-        lambda tables: PoseContractor(beams(), tables.occupied, tables.domain, 0.01).contract(NAN),
+        lambda tables: ScanContractor(beams(), tables.occupied).fits(NAN),
+        lambda tables: ScanContractor(beams(), tables.occupied).contract(NAN),
+        lambda tables: PoseContractor(beams(), tables.occupied, tables.domain).contract(NAN),
     ],
 )
 def test_a_bound_that_is_no_number_is_refused(use: Callable[..., object]) -> None:

@@ -40,8 +40,8 @@ SCAN = next(simulate(GRID, [AT], LIDAR, SensorErrors(0.0, 0.0, 0), CONFIG.bounds
 def test_the_leeway_is_what_the_errors_leave_open() -> None:
     beams = scan_beams(SCAN, CONFIG)
     distance = float(np.hypot(*beams.ends.T).mean())
-    assert leeway(beams, 0.03) == pytest.approx(0.12**2 * 2.0 * 0.06 / distance, rel=1e-3)
-    assert leeway(beams, 0.06) > leeway(beams, 0.03)
+    assert leeway(beams) == pytest.approx(0.12**2 * 2.0 * 0.06 / distance, rel=1e-3)
+    assert leeway(replace(beams, map_error_m=0.06)) > leeway(beams)
 
 
 def test_an_answer_with_room_is_not_vanishing_and_one_at_the_edge_of_its_bounds_is() -> None:
@@ -49,16 +49,16 @@ def test_an_answer_with_room_is_not_vanishing_and_one_at_the_edge_of_its_bounds_
     assert not whole.vanishing
     edge = Boxes.of([(AT.x + 0.09, AT.x + 0.095), (AT.y, AT.y + 0.005), (AT.theta, AT.theta + 0.001)])
     beams = scan_beams(SCAN, CONFIG)
-    assert is_vanishing([PoseSet(edge)], beams, 0.03)
-    assert is_vanishing([PoseSet(Boxes.none(3))], beams, 0.03)
-    assert not is_vanishing([PoseSet(edge), whole.poses], beams, 0.03)
+    assert is_vanishing([PoseSet(edge)], beams)
+    assert is_vanishing([PoseSet(Boxes.none(3))], beams)
+    assert not is_vanishing([PoseSet(edge), whole.poses], beams)
 
 
 def test_what_is_coarse_or_only_predicted_is_not_called_so() -> None:
     edge, beams = Boxes.of([(0.0, 1e-6), (0.0, 1e-6), (0.0, 1e-6)]), scan_beams(SCAN, CONFIG)
-    assert not is_vanishing([PoseSet(edge, limited="boxes")], beams, 0.03)
-    assert not is_vanishing([PoseSet(edge, np.array([True]))], beams, 0.03)
-    assert not is_vanishing([PoseSet(edge)], beams.allowing(len(beams)), 0.03)
+    assert not is_vanishing([PoseSet(edge, limited="boxes")], beams)
+    assert not is_vanishing([PoseSet(edge, np.array([True]))], beams)
+    assert not is_vanishing([PoseSet(edge)], beams.allowing(len(beams)))
 
 
 def test_a_tracked_robot_that_has_left_its_bounds_is_flagged() -> None:

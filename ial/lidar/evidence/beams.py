@@ -38,6 +38,8 @@ class Beams:
         q: how many of these beams may be bad.
     rays
         What the scan says about free space; None where that is not used.
+    map_error_m
+        How far the map may be wrong where a beam ends.
     margin
         If given, q is chosen at the scan: the smallest that leaves a pose, plus this, and at most `outliers`.
     jump
@@ -49,6 +51,7 @@ class Beams:
     errors: FloatArray
     outliers: int
     rays: Rays | None = None
+    map_error_m: float = 0.0
     margin: int | None = None
     jump: int | None = None
 
@@ -117,7 +120,7 @@ def select_beams(scan: LaserScan, bounds: Bounds, outliers: Share, max_beams: in
         numbers = np.concatenate([among, np.full(len(alone), -1)]).astype(np.int64)
         margins = (free_space.margin_m + paths.blurs[rows]) * ABOVE
         rays = Rays(paths.origins[rows], paths.angles[rows], paths.turns[rows], lengths, numbers, margins)
-    beams = Beams(ends, directions, errors * ABOVE, 0, rays)
+    beams = Beams(ends, directions, errors * ABOVE, 0, rays, bounds.map_error_m)
     return dataclasses.replace(beams, outliers=number_of(outliers, len(beams)))
 
 

@@ -144,9 +144,7 @@ def _refine(start, stop, layers, cells, outer, wanted, depth, evidence, q, table
                 cut[0][row], cut[1][row] = reached[0], reached[1]
 
 
-def refine_border(
-    cells: Boxes, lattice: Lattice, sections: Sections, beams: Beams, map_error_m: float, depth: int
-) -> tuple[Boxes, npt.NDArray[np.bool_]]:
+def refine_border(cells: Boxes, lattice: Lattice, sections: Sections, beams: Beams, depth: int) -> tuple[Boxes, npt.NDArray[np.bool_]]:
     """Return cells whose outer faces are moved to the outermost pieces that may hold a consistent pose, and which of them are left.
 
     A cell without such a piece is dropped, and the faces of its neighbours behind it are moved, too.
@@ -161,15 +159,13 @@ def refine_border(
         The tables of the map.
     beams
         The evidence of the scan, and how many of its beams may be bad.
-    map_error_m
-        How far the map may be wrong.
     depth
         How often cells are halved along each axis.
     """
     lower, upper, kept = cells.lower.copy(), cells.upper.copy(), np.ones(len(cells), dtype=np.bool_)
     order = group_rows(lower[:, 2], upper[:, 2])
     edges = np.flatnonzero(np.concatenate([[True], np.diff(lower[order, 2]) != 0.0, [True]]))
-    evidence = (beams.ends, beams.directions, beams.errors, map_error_m)
+    evidence = (beams.ends, beams.directions, beams.errors, beams.map_error_m)
     headings = (np.zeros((len(edges) - 1, 2 << depth), dtype=np.bool_), np.empty((len(edges) - 1, 2 << depth, len(beams.ends), 4)))
     places = [(key, rows) for key, rows, _ in sections.parts(cells)]
     outer = outer_faces(cells, lattice)

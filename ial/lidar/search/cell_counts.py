@@ -126,7 +126,7 @@ def _spread_order(beams: int) -> npt.NDArray[np.intp]:
 
 
 def count_cells(
-    bitmaps: CellBitmaps, lattice: Lattice, beams: Beams, occupied: CellIndex, domain: CellIndex, map_error_m: float
+    bitmaps: CellBitmaps, lattice: Lattice, beams: Beams, occupied: CellIndex, domain: CellIndex
 ) -> tuple[WordArray, npt.NDArray[np.int16]]:
     """Return which cells may hold a pose of the domain from which not too many beams are bad, and how many are at least.
 
@@ -140,8 +140,6 @@ def count_cells(
         The evidence of the scan, and how many of its beams may be bad.
     occupied, domain
         Which cells beams may end at, and in which the robot may be.
-    map_error_m
-        How far the map may be wrong.
 
     Returns
     -------
@@ -176,7 +174,7 @@ def count_cells(
         lattice.parts,
         evidence,
         beams.outliers,
-        map_error_m,
+        beams.map_error_m,
         grid,
         kept,
         least,

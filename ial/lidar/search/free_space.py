@@ -261,7 +261,6 @@ def count_blocked(
     parts: int,
     occupied: CellIndex,
     bits: BitColumns,
-    map_error_m: float,
 ) -> npt.NDArray[np.int16]:
     """Return how many beams are bad at least in each box, those counted that are blocked; int16 of shape (n,).
 
@@ -277,15 +276,13 @@ def count_blocked(
         Into how many parts a cell is divided, along x and along y, to count the beams that end nowhere.
     occupied, bits
         The occupied cells.
-    map_error_m
-        How far the map may be wrong.
     """
     rays = beams.rays
     counted = least.astype(np.int64)
     if rays is None or not len(rays):
         return least
     order = group_rows(boxes.lower[:, 2], boxes.upper[:, 2])
-    hits = (beams.ends, beams.directions, beams.errors, map_error_m)
+    hits = (beams.ends, beams.directions, beams.errors, beams.map_error_m)
     evidence = (rays.origins, rays.angles, rays.turns, rays.lengths, rays.beams, rays.margins)
     grid = (occupied.resolution, occupied.bordered, occupied.table, occupied.origin, bits.upwards, bits.rightwards)
     run(_block_rows, len(boxes), order, boxes.lower, boxes.upper, parts, hits, evidence, grid, counted, minimum=16)

@@ -126,7 +126,7 @@ class Sections:
             return self._root
         return self._cores(*np.divmod(np.arange(self._rows * self._columns), self._columns))
 
-    def reach(self, beams: Beams, map_error_m: float) -> None:
+    def reach(self, beams: Beams) -> None:
         """See to it that the tables of every section hold all obstacles that the beams of a scan can end at or be blocked by.
 
         Raises
@@ -136,7 +136,7 @@ class Sections:
         """
         if self.one:
             return
-        far = (np.hypot(*beams.ends.T) + beams.errors.sum(axis=1)).max(initial=0.0) + map_error_m
+        far = (np.hypot(*beams.ends.T) + beams.errors.sum(axis=1)).max(initial=0.0) + beams.map_error_m
         far = max(far, 0.0 if beams.rays is None else beams.rays.reach_m)
         needed = math.ceil(far / self._grid.resolution * ABOVE)
         if needed <= self._margin:

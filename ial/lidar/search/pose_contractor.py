@@ -20,14 +20,12 @@ class PoseContractor:
         The cells that beams may end at.
     domain
         The cells in which the robot's base may be.
-    map_error_m
-        How far the map may be wrong.
     """
 
     dimension = 3
 
-    def __init__(self, beams: Beams, occupied: CellIndex, domain: CellIndex, map_error_m: float) -> None:
-        self._scan = ScanContractor(beams, occupied, map_error_m)
+    def __init__(self, beams: Beams, occupied: CellIndex, domain: CellIndex) -> None:
+        self._scan = ScanContractor(beams, occupied)
         self._domain = domain
 
     def contract(self, boxes: Boxes) -> Boxes:

@@ -98,8 +98,9 @@ def _narrow(start, stop, order, lower, upper, ends, directions, errors, q, map_e
 class ScanContractor:
     """Poses (x, y, θ) of the robot, in the grid's frame, from which at most q of the used beams are bad.
 
-    A beam is good at a pose if some point of its error region lies within `map_error_m` of a closed occupied cell. Beams without return are
-    among those that may be bad, and are taken to be good: with as many bad ones allowed as there are hits, a box is returned as it is.
+    A beam is good at a pose if some point of its error region lies within `Beams.map_error_m` of a closed occupied cell. Beams without
+    return are among those that may be bad, and are taken to be good: with as many bad ones allowed as there are hits, a box is returned as
+    it is.
 
     Parameters
     ----------
@@ -107,18 +108,15 @@ class ScanContractor:
         The evidence of the scan.
     occupied
         The occupied cells.
-    map_error_m
-        How far the map may be wrong.
 
     Source: Guyonneau et al. 2014, section 3.2, eq. 6, as a test with relaxed intersection over all beams.
     """
 
     dimension = 3
 
-    def __init__(self, beams: Beams, occupied: CellIndex, map_error_m: float) -> None:
+    def __init__(self, beams: Beams, occupied: CellIndex) -> None:
         self.beams = beams
         self.occupied = occupied
-        self.map_error_m = map_error_m
         self._most = min(beams.outliers, len(beams.ends))  # of the beams that end somewhere; those without return say nothing here
 
     def fits(self, boxes: Boxes) -> npt.NDArray[np.bool_]:
@@ -161,4 +159,4 @@ class ScanContractor:
     @property
     def _evidence(self) -> tuple[Any, ...]:
         beams = self.beams
-        return beams.ends, beams.directions, beams.errors, self._most, self.map_error_m
+        return beams.ends, beams.directions, beams.errors, self._most, beams.map_error_m

@@ -73,7 +73,7 @@ class Case:
         return cut[kept]
 
     def cut(self, cells: Boxes, outliers: int) -> tuple[Boxes, np.ndarray]:
-        cut, kept = refine_border(cells, self.lattice, self.sections, self.world.beams(outliers), self.world.bounds.map_error_m, self.depth)
+        cut, kept = refine_border(cells, self.lattice, self.sections, self.world.beams(outliers), self.depth)
         return cut, mend(cells, self.lattice, cut, kept, cluster(cut[kept], circular=(2,)))
 
     def holds(self, boxes: Boxes, at: np.ndarray) -> bool:
@@ -81,7 +81,7 @@ class Case:
 
     def pieces(self, outliers: int) -> tuple[Boxes, np.ndarray]:
         """Return all of the finest pieces that fit, as do all of the larger ones around them, and the number of the cell of each."""
-        scan = ScanContractor(self.world.beams(outliers), self.world.index(), self.world.bounds.map_error_m)
+        scan = ScanContractor(self.world.beams(outliers), self.world.index())
         domain = CellIndex(self.allowed, self.world.resolution)
         lower, upper, cell = self.cells.lower, self.cells.upper, np.arange(len(self.cells))
         for _ in range(self.depth):

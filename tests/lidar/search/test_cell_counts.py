@@ -39,7 +39,7 @@ class Case:
 
     def count(self, most: int) -> tuple[Boxes, np.ndarray]:
         world = self.world
-        words, least = count_cells(self.bitmaps, self.lattice, world.beams(most), self.occupied, self.domain, world.bounds.map_error_m)
+        words, least = count_cells(self.bitmaps, self.lattice, world.beams(most), self.occupied, self.domain)
         left = type(self.bitmaps)(self.bitmaps.keys, words)
         return self.lattice.boxes(left), left.values(least)
 
@@ -72,7 +72,7 @@ def test_cells_are_kept_like_boxes_of_their_parts() -> None:
         world, lattice = case.world, case.lattice
         most = int(0.3 * len(world.hits()))
         cells = lattice.boxes(case.bitmaps)
-        scan = ScanContractor(world.beams(most), case.occupied, world.bounds.map_error_m)
+        scan = ScanContractor(world.beams(most), case.occupied)
         expected = np.zeros(len(cells), dtype=np.bool_)
         for part in np.ndindex(lattice.parts, lattice.parts, 2):
             shares = np.array(part) / (lattice.parts, lattice.parts, 2)
@@ -100,7 +100,7 @@ def test_cells_outside_the_domain_are_dropped_on_any_number_of_threads(threads: 
     world = World.random(np.random.default_rng(0))
     set_threads(threads)
     try:
-        words, _ = count_cells(bitmaps, lattice, world.beams(1000), occupied, CellIndex(domain, 0.05, compact=True), 0.0)
+        words, _ = count_cells(bitmaps, lattice, world.beams(1000), occupied, CellIndex(domain, 0.05, compact=True))
     finally:
         set_threads(None)
     cells = lattice.boxes(type(bitmaps)(bitmaps.keys, words))
@@ -132,7 +132,7 @@ def test_far_from_the_corner_of_a_map_the_parts_of_a_cell_drift_against_its_cell
     mask = mask if axis == 0 else np.ascontiguousarray(mask.T)
     beams = Beams(reach * ahead, ahead, np.zeros((1, 2)), 0)
     bitmaps = lattice.bitmaps(Boxes(pose[None], pose[None]))
-    words, _ = count_cells(bitmaps, lattice, beams, CellIndex(mask, resolution), CellIndex(~mask, resolution, compact=True), 0.0)
+    words, _ = count_cells(bitmaps, lattice, beams, CellIndex(mask, resolution), CellIndex(~mask, resolution, compact=True))
     assert lattice.boxes(type(bitmaps)(bitmaps.keys, words)).contain(pose).any()
 
 

@@ -1,6 +1,7 @@
 """Blocked rays against the slow twin: many rays of many poses, each cast through the map by itself."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -113,9 +114,9 @@ def test_blocked_beams_and_beams_without_return_count_once_each() -> None:
     assert (len(beams), (beams.rays.beams < 0).sum()) == (60, 5)
     box = Boxes.of([(x - 0.01, x + 0.01), (y - 0.01, y + 0.01), (-0.002, 0.002)])
     hits = select_beams(scan, bounds, 5, 180)
-    (found,) = count_blocked(box, np.zeros(1, np.int16), beams, 2, index, bits, 0.02)
+    (found,) = count_blocked(box, np.zeros(1, np.int16), beams, 2, index, bits)
     (short,) = count_blocked(
-        box, np.zeros(1, np.int16), select_beams(scan, bounds, 5, 180, FreeSpace(True, 0.02, 180, 0.05)), 2, index, bits, 0.02
+        box, np.zeros(1, np.int16), select_beams(scan, bounds, 5, 180, FreeSpace(True, 0.02, 180, 0.05)), 2, index, bits
     )
     assert len(hits) == 55
     assert 12 <= found <= 15  # ten behind a wall, bad once each although some end in a cell, and five that see through walls
@@ -130,13 +131,13 @@ def test_an_endless_ray_and_a_bearing_that_may_be_anything_are_bounded() -> None
     far = LaserScan(0, np.array([3e38, 5.0], np.float32), 0.1, 1.0)
     blind = np.zeros(1, np.int16)
     beams = select_beams(far, Bounds(), 0, 180, FreeSpace())
-    assert count_blocked(box, blind, beams, 2, index, bits, 0.04)[0] >= 1
+    assert count_blocked(box, blind, beams, 2, index, bits)[0] >= 1
     wall = np.zeros((200, 200), dtype=np.bool_)
     wall[:, 5] = True  # on one side only: rays into most directions are free, although both ends of their interval point at it
     open_side, seen = (CellIndex(wall, 0.05), BitColumns(wall)), Boxes.of([(1.0, 1.01), (5.0, 5.01), (0.0, 0.01)])
     for bearing, error, count in ((0.0, 2.7, 0), (math.pi, 0.05, 1), (math.pi, 6.0, 0)):
         beams = select_beams(LaserScan(0, np.array([50.0], np.float32), bearing, 1.0), Bounds(0.0, error, 50.0), 0, 180, FreeSpace())
-        assert count_blocked(seen, blind, beams, 2, *open_side, 50.0).tolist() == [count]
+        assert count_blocked(seen, blind, beams, 2, *open_side).tolist() == [count]
 
 
 @pytest.mark.parametrize("outliers", [0, 3, 29, "auto"])
@@ -181,7 +182,7 @@ def test_a_ray_ends_before_the_wall_by_the_error_and_by_the_margin(
     scan = LaserScan(0, np.array([reading], np.float32), bearing, 0.1)
     beams = select_beams(scan, Bounds(range_error, 0.0, 0.0), 0, 180, FreeSpace(True, margin))
     box = Boxes.of([(2.0, 2.0), (6.0, 6.0), (0.0, 1e-9)])
-    found = count_blocked(box, np.zeros(1, np.int16), beams, 2, CellIndex(wall, 0.05), BitColumns(wall), 0.0)
+    found = count_blocked(box, np.zeros(1, np.int16), beams, 2, CellIndex(wall, 0.05), BitColumns(wall))
     assert found.tolist() == [count]
 
 
@@ -200,7 +201,7 @@ def test_a_ray_that_passes_a_gap_at_some_bearing_or_heading_is_not_blocked(beari
 
     def count(error: float, low: float, high: float) -> int:
         box = Boxes.of([(6.0, 6.0), (6.0, 6.0), (low, high)])
-        return int(count_blocked(box, np.zeros(1, np.int16), beams[error], 2, index, bits, 1.0)[0])
+        return int(count_blocked(box, np.zeros(1, np.int16), replace(beams[error], map_error_m=1.0), 2, index, bits)[0])
 
     assert count(0.0, -1e-9, 1e-9) == count(0.04, -1e-9, 1e-9) == count(0.0, -0.04, 0.04) == 1
     assert count(0.1, -1e-9, 1e-9) == count(0.0, min(aside, 0.0), max(aside, 0.0)) == 0

@@ -118,7 +118,7 @@ def test_a_section_holds_every_end_of_a_beam(small_sections: None) -> None:
     model = Localizer(world(), config=CONFIG).model
     for pose, step in zip(*drive(2), strict=True):
         beams = scan_beams(step.scan, CONFIG)
-        model.sections.reach(beams, CONFIG.bounds.map_error_m)
+        model.sections.reach(beams)
         ((key, _, _),) = list(model.sections.parts(Boxes.of([(pose.x, pose.x), (pose.y, pose.y), (0.0, 0.0)])))
         occupied = model.sections[key].occupied
         far = np.hypot(*beams.ends.T).max() + 0.05
@@ -199,7 +199,7 @@ def test_beams_that_reach_across_the_map_are_no_trouble(small_sections: None) ->
     cells[[0, -1], :] = cells[:, [0, -1]] = OCCUPIED
     model = Localizer(OccupancyGrid(cells, 0.05), config=CONFIG).model
     ends = np.array([[14.0, 0.0], [0.0, 14.0]])
-    model.sections.reach(Beams(ends, ends / 14.0, np.zeros((2, 2)), 0), 0.01)
+    model.sections.reach(Beams(ends, ends / 14.0, np.zeros((2, 2)), 0, map_error_m=0.01))
     assert model.sections[0, 0].occupied.table.shape == (301, 301)
 
 
@@ -289,6 +289,6 @@ def test_a_precision_too_fine_for_the_map_is_refused_with_its_own_numbers(
 def test_beams_that_reach_too_far_for_a_fine_precision_are_refused_with_theirs() -> None:
     model = Localizer(corridor(3000, 3000, 0.05), config=replace(CONFIG, precision=Precision(0.004))).model
     ends = np.array([[40.0, 0.0]])
-    model.sections.reach(Beams(0.2 * ends, ends / 40.0, np.zeros((1, 2)), 0), 0.01)
+    model.sections.reach(Beams(0.2 * ends, ends / 40.0, np.zeros((1, 2)), 0, map_error_m=0.01))
     with pytest.raises(ConfigError, match=r"0\.004 m, .* 3000 × 3000 cells of 0\.05 m .* 25 × 25 .* reach 40 m, .* at least 0\.\d+ m"):
-        model.sections.reach(Beams(ends, ends / 40.0, np.zeros((1, 2)), 0), 0.01)
+        model.sections.reach(Beams(ends, ends / 40.0, np.zeros((1, 2)), 0, map_error_m=0.01))

@@ -14,7 +14,7 @@ WORLDS = 600
 
 
 def contractor(world: World, outliers: int) -> ScanContractor:
-    return ScanContractor(world.beams(outliers), world.index(), world.bounds.map_error_m)
+    return ScanContractor(world.beams(outliers), world.index())
 
 
 def worlds(first: int = 0) -> list[tuple[World, np.random.Generator]]:
@@ -116,7 +116,7 @@ def test_as_many_outliers_as_hits_leave_a_box_as_it_is_however_many_beams_are_us
         assert used >= hits + 2
         for outliers in (hits, used - 1, used, 10**30):
             beams = with_silent_beams(world, outliers, 2)
-            found = ScanContractor(beams, world.index(), world.bounds.map_error_m).contract(boxes)
+            found = ScanContractor(beams, world.index()).contract(boxes)
             if not (np.array_equal(found.lower, boxes.lower) and np.array_equal(found.upper, boxes.upper)):
                 lost.append((seed, outliers))
             kept += 1
@@ -129,7 +129,7 @@ def test_silent_beams_change_nothing_where_fewer_may_be_bad_than_hits() -> None:
         for outliers in range(0, len(world.hits()), 5):
             boxes = Boxes.concatenate([world.box_around(random) for _ in range(5)])
             plain = contractor(world, outliers).contract(boxes)
-            found = ScanContractor(with_silent_beams(world, outliers, 3), world.index(), world.bounds.map_error_m).contract(boxes)
+            found = ScanContractor(with_silent_beams(world, outliers, 3), world.index()).contract(boxes)
             assert np.array_equal(found.lower, plain.lower)
             assert np.array_equal(found.upper, plain.upper)
             narrowed += not np.array_equal(found.lower, boxes.lower)
@@ -159,7 +159,7 @@ def test_an_end_point_that_only_touches_a_cell_is_good() -> None:
     ]:
         beams = Beams(0.0 * one, one * [1.0, 0.0], 0.0 * one, 0)
         point = np.array([[*at, 0.0]])
-        assert ScanContractor(beams, index, 0.0).fits(Boxes(point, point))[0] == touches
+        assert ScanContractor(beams, index).fits(Boxes(point, point))[0] == touches
 
 
 def test_a_box_too_far_away_for_the_table_is_kept() -> None:
