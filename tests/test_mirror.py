@@ -5,7 +5,6 @@ from pathlib import PurePosixPath
 from tests.test_house import ROOT, kept_files
 
 ACROSS = {  # tests of no single file, and what they are of
-    "bouncing/exports/test_other_tools.py": "one filter in every plain format",
     "bouncing/test_margins.py": "what is rounded about walls and headings, from the polygon to the set",
     "cli/test_bad_input.py": "everything that a user can do wrong in the main job",
     "cli/test_bounce.py": "the commands of the bouncing robot, one after the other",
@@ -40,9 +39,9 @@ UNMIRRORED = {  # tests that also stand for other files than their own; a file t
     "bouncing/cells/test_groups.py": ["graph"],
     "bouncing/cells/test_headings.py": ["heading_classes"],
     "bouncing/cells/test_noisy_map.py": ["noisy_model", "set_graph", "../automata/set_automaton", "../execution_bounds"],
-    "bouncing/exports/test_c_source.py": ["c_array", "c_tables", "identifier", "state_places"],
+    "bouncing/exports/test_c_source.py": ["c_array", "c_tables", "exported_filter"],
     "bouncing/exports/test_jflap.py": ["automata_lib", "finite_automaton"],
-    "bouncing/exports/test_other_tools.py": ["archive", "csv_table", "dot", "exported_filter", "formats"],
+    "bouncing/exports/test_archive.py": ["state_places"],
     "bouncing/filters/test_bounce_filter.py": ["building", "cycle_places", "setting"],
     "bouncing/automata/test_table.py": ["../filters/bank"],
     "bouncing/planning/test_angle_search.py": ["information_sets", "phase", "trace_classes"],
@@ -60,10 +59,10 @@ UNMIRRORED = {  # tests that also stand for other files than their own; a file t
     "contractors/solving/test_newton.py": ["zeros"],
     "contractors/solving/test_problem.py": ["conflict", "propagation", "../expressions/function_family"],
     "contractors/test_boxes.py": ["elementwise"],
-    "datasets/test_carmen.py": ["carmen_line", "reader", "text_log"],
+    "datasets/test_carmen.py": ["carmen_line", "reader"],
     "datasets/test_conversion.py": ["bag_writer", "copied_messages", "order"],
     "datasets/test_motion.py": ["motion_boxes", "odometry_path"],
-    "datasets/test_recording.py": ["in_memory", "mark"],
+    "datasets/test_recording.py": ["mark"],
     "datasets/test_ros.py": ["bag_file", "info", "ros_frames", "ros_messages", "survey"],
     "datasets/test_sample.py": ["sample/make_sample"],
     "lidar/search/test_border_refinement.py": ["outer_faces"],
@@ -80,9 +79,7 @@ UNMIRRORED = {  # tests that also stand for other files than their own; a file t
     "cli/lidar/test_warm.py": ["../../lidar/warming"],
     "maps/grids/test_map_file.py": ["map_warning"],
     "maps/polygons/test_direction.py": ["exact_cosine"],
-    "maps/polygons/test_environment.py": ["geojson", "polygon_json", "svg", "wkt"],
     "maps/polygons/test_polygon.py": ["ring"],
-    "results/lidar/test_enclosures.py": ["json_lines"],
     "results/lidar/test_result_folder.py": ["sink"],
     "results/lidar/test_picture.py": ["panels", "../palette"],
     "results/test_bounce_pictures.py": [
@@ -95,7 +92,7 @@ UNMIRRORED = {  # tests that also stand for other files than their own; a file t
     "study/test_blocked_rays.py": ["open_strips"],
     "study/test_bounds_survey.py": ["failures", "motion_fit", "reference", "../results/lidar/failure_picture"],
     "study/test_good_beams.py": ["obstacles"],
-    "test_packaging.py": ["errors", "lazy"],
+    "test_packaging.py": ["lazy"],
 }
 
 
