@@ -114,14 +114,15 @@ MIRRORED = {test.with_name(test.name.removeprefix("test_")) for test in TESTS}
 
 
 def test_a_test_mirrors_a_file_or_says_what_it_is_of() -> None:
-    of_none = {test for test in TESTS if test.with_name(test.name.removeprefix("test_")) not in SOURCES}
-    assert {str(test) for test in of_none} == ACROSS.keys(), (
-        "name a test after the file that it tests; if it tests several, say in ACROSS what"
-    )
+    of_none = {str(test) for test in TESTS if test.with_name(test.name.removeprefix("test_")) not in SOURCES}
+    assert of_none - ACROSS.keys() == set(), "name a test after the file that it tests; if it is of several, say in ACROSS what it is of"
+    assert ACROSS.keys() - of_none == set(), "these are gone, or mirror a file: take them out of ACROSS"
 
 
 def test_a_file_has_its_test_or_is_on_the_list() -> None:
-    listed = [resolved(PurePosixPath(test).parent, name) for test, names in UNMIRRORED.items() for name in names]
+    listed = [str(resolved(PurePosixPath(test).parent, name)) for test, names in UNMIRRORED.items() for name in names]
+    untested = {str(source) for source in SOURCES - MIRRORED}
+    assert untested - set(listed) == set(), "write a test of the same name for these files, or say in UNMIRRORED which test they have"
+    assert set(listed) - untested == set(), "these are gone, or have a test of their own: take them out of UNMIRRORED"
     assert len(listed) == len(set(listed))
-    assert {str(source) for source in SOURCES - MIRRORED} == {str(source) for source in listed}
-    assert {PurePosixPath(test) for test in UNMIRRORED} <= TESTS
+    assert {test for test in UNMIRRORED if PurePosixPath(test) not in TESTS} == set()
