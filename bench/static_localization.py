@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 from report import Report, options  # ial is loaded in the processes of the cases: a child's peak memory is at least its parent's
 from timing import timed
@@ -71,6 +72,26 @@ def draw(case: Case, file: Path) -> None:
             pickle.dump(scene, out)
 
 
+def nodes_of(localizer: Any, scan: Any) -> int:
+    """Return how many boxes and cells the search for a scan tries."""
+    from ial.lidar import model
+
+    tried, pave, count_cells = [], model.pave, model.count_cells
+
+    def paved(*args: Any, **options: Any) -> Any:
+        paving = pave(*args, **options)
+        tried.append(paving.nodes)
+        return paving
+
+    def counted(bitmaps: Any, *args: Any) -> Any:
+        tried.append(len(bitmaps))
+        return count_cells(bitmaps, *args)
+
+    with mock.patch.multiple(model, pave=paved, count_cells=counted):
+        localizer.locate(scan)
+    return sum(tried)
+
+
 def measure(scene: Any, config: Any, brute_force: bool) -> dict[str, Any]:
     """Localize in one scene; return what was measured, as plain values."""
     from ial.contractors.threads import set_threads
@@ -85,7 +106,7 @@ def measure(scene: Any, config: Any, brute_force: bool) -> dict[str, Any]:
         row[f"{name}_s"], estimate = timed(localizer.locate, scene.scan, runs=3, enough_s=SLOW_S)
         if brute is not None:
             row[f"brute_{name}_s"], match = timed(brute.locate, scene.scan, runs=3, enough_s=SLOW_S)
-    row |= {"peak_mb": peak_mb(), "nodes": estimate.poses.nodes, "limited": estimate.limited}
+    row |= {"peak_mb": peak_mb(), "nodes": nodes_of(localizer, scene.scan), "limited": estimate.limited}
     row |= {"hypotheses": len(estimate.hypotheses), "contained": estimate.poses.contains(scene.grid.pose_to_grid(scene.truth))}
     row["off_m"] = min(off(each.centre, scene.truth) for each in estimate.hypotheses)
     if brute is not None:

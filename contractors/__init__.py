@@ -3,21 +3,21 @@
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from ial.contractors.algebra import intersection as intersection
+    from ial.contractors.algebra import lazy as lazy
+    from ial.contractors.algebra import negation as negation
+    from ial.contractors.algebra import relaxed as relaxed
+    from ial.contractors.algebra import union as union
     from ial.contractors.boxes import Boxes as Boxes
     from ial.contractors.combinators.affine import Affine as Affine
     from ial.contractors.combinators.combination import Intersection as Intersection
     from ial.contractors.combinators.combination import Union as Union
-    from ial.contractors.combinators.combination import intersection as intersection
-    from ial.contractors.combinators.combination import negation as negation
-    from ial.contractors.combinators.combination import union as union
     from ial.contractors.combinators.cylinder import where as where
     from ial.contractors.combinators.family import Family as Family
     from ial.contractors.combinators.fixed_point import fixpoint as fixpoint
-    from ial.contractors.combinators.lazy_intersection import lazy as lazy
     from ial.contractors.combinators.preimage import transform as transform
     from ial.contractors.combinators.projector import projection as projection
     from ial.contractors.combinators.relaxation import Relaxed as Relaxed
-    from ial.contractors.combinators.relaxation import relaxed as relaxed
     from ial.contractors.combinators.relaxation import relaxed_intersection as relaxed_intersection
     from ial.contractors.contractor import Contractor as Contractor
     from ial.contractors.contractor import ContractorLike as ContractorLike
@@ -108,16 +108,16 @@ else:
     __getattr__, __dir__, __all__ = _lazy(
         __name__,
         {
+            "algebra": ("intersection", "lazy", "negation", "relaxed", "union"),
             "boxes": ("Boxes",),
             "combinators.affine": ("Affine",),
-            "combinators.combination": ("Intersection", "Union", "intersection", "negation", "union"),
+            "combinators.combination": ("Intersection", "Union"),
             "combinators.cylinder": ("where",),
             "combinators.family": ("Family",),
             "combinators.fixed_point": ("fixpoint",),
-            "combinators.lazy_intersection": ("lazy",),
             "combinators.preimage": ("transform",),
             "combinators.projector": ("projection",),
-            "combinators.relaxation": ("Relaxed", "relaxed", "relaxed_intersection"),
+            "combinators.relaxation": ("Relaxed", "relaxed_intersection"),
             "contractor": ("Contractor", "ContractorLike"),
             "expressions.constraint": ("Constraint", "ConstraintFamily"),
             "expressions.expression": ("Expression",),

@@ -52,8 +52,6 @@ def wrapped(boxes: Boxes, *axes: int) -> Boxes:
     ------
     ValueError
         If a bound is NaN, or if there is no such axis.
-    RoundingModeError
-        If the processor does not round to nearest.
     """
     check_rounding()
     for axis in axes:

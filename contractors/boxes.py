@@ -2,24 +2,22 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Union
+from typing import Any, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.elementwise import Elementwise, common_shape, doubles, is_operand, sides
+from ial.contractors.expressions.operation import Operation
 from ial.contractors.intervals import sets
 from ial.contractors.intervals.double import Number
+from ial.contractors.intervals.interval import Interval
 from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 
-if TYPE_CHECKING:
-    from ial.contractors.expressions.operation import Operation
-    from ial.contractors.intervals.interval import Interval
-
 FloatArray = npt.NDArray[np.float64]
 
-Operand = Union["Boxes", "Interval", Number, npt.NDArray[Any]]
+Operand = Union["Boxes", Interval, Number, npt.NDArray[Any]]
 
 _SHOWN = 3  # rows, and sides of a row, that repr prints
 
@@ -50,7 +48,7 @@ class Boxes(Elementwise):
             raise ValueError(f"bounds have shapes {self.lower.shape} and {self.upper.shape}; both must be (n, d)")
 
     @classmethod
-    def of(cls, *rows: Sequence["tuple[Number, Number] | Interval"]) -> "Boxes":
+    def of(cls, *rows: Sequence[tuple[Number, Number] | Interval]) -> "Boxes":
         """Return boxes from rows of (lower, upper) pairs or `Interval`: ``Boxes.of([(0, 1), (2, 3)])`` is one box in the plane.
 
         A number that is not a double is rounded outward. The pair (inf, -inf) is an empty side.
@@ -60,8 +58,6 @@ class Boxes(Elementwise):
         ValueError
             If there is no row, rows differ in length, or a pair makes no interval.
         """
-        from ial.contractors.intervals.interval import Interval
-
         if len({len(row) for row in rows}) != 1 or not rows[0]:
             raise ValueError("boxes need one row or more of the same number of sides; no boxes at all are Boxes.none(dimension)")
         empty = Interval.empty()
@@ -104,8 +100,6 @@ class Boxes(Elementwise):
         ------
         ValueError
             If a coordinate is not finite, a radius is NaN or negative, or the shapes do not fit.
-        RoundingModeError
-            If the processor does not round to nearest.
         """
         from ial.contractors.expressions.functions import add
 
@@ -139,14 +133,12 @@ class Boxes(Elementwise):
             rows = [rows]
         return Boxes(self.lower[rows], self.upper[rows])
 
-    def __iter__(self) -> Iterator[tuple["Interval", ...]]:
+    def __iter__(self) -> Iterator[tuple[Interval, ...]]:
         """Yield each box as a tuple of d intervals."""
         return (tuple(self.interval(row, axis) for axis in range(self.dimension)) for row in range(len(self)))
 
-    def interval(self, row: int, axis: int) -> "Interval":
+    def interval(self, row: int, axis: int) -> Interval:
         """Return one side of one box."""
-        from ial.contractors.intervals.interval import Interval
-
         return Interval.of_bounds(self.lower[row, axis], self.upper[row, axis])
 
     def __repr__(self) -> str:
@@ -216,7 +208,7 @@ class Boxes(Elementwise):
         return Boxes(lower, upper)
 
     @staticmethod
-    def operate(operation: "Operation", operands: Sequence[Operand]) -> "Boxes":
+    def operate(operation: Operation, operands: Sequence[Operand]) -> "Boxes":
         """Return the result of an operation on boxes, intervals, numbers and points, side by side."""
         boxes = Boxes(*operation.bounds(*sides(*operands)))
         return boxes.where(~boxes.empty)

@@ -2,11 +2,9 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable
-from importlib import import_module
 from typing import Protocol
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.rounding import check_rounding
 from ial.contractors.space import Space
 
 
@@ -37,8 +35,8 @@ class Contractor(ABC):
     is not modified. A row is narrowed by itself, whatever other rows come with it. A subclass sets `dimension` and defines `contract`.
 
     Contractors of one dimension combine: ``a & b`` stands for points that satisfy both constraints, ``a | b`` for points that satisfy at
-    least one, ``~a`` for points that do not satisfy one, where a contractor for these is known. See `combination.intersection`,
-    `combination.union` and `complement`.
+    least one, ``~a`` for points that do not satisfy one, where a contractor for these is known. See `algebra.intersection`,
+    `algebra.union` and `complement`.
     """
 
     dimension: int
@@ -60,46 +58,31 @@ class Contractor(ABC):
         raise TypeError(_unknown_complement(self))
 
     def __and__(self, other: ContractorLike) -> "Contractor":
-        return _combined("intersection", [self, other])
+        return _intersection(self, other)
 
     def __rand__(self, other: ContractorLike) -> "Contractor":
-        return _combined("intersection", [other, self])
+        return _intersection(other, self)
 
     def __or__(self, other: ContractorLike) -> "Contractor":
-        return _combined("union", [self, other])
+        return _union(self, other)
 
     def __ror__(self, other: ContractorLike) -> "Contractor":
-        return _combined("union", [other, self])
+        return _union(other, self)
 
     def __invert__(self) -> ContractorLike:
         return self.complement()
 
 
-def _combined(name: str, members: list[ContractorLike]) -> Contractor:
-    """Call a function of the room that is built on this one; it is found when an operator is used."""
-    found: Contractor = getattr(import_module("ial.contractors.combinators.combination"), name)(members)
-    return found
+def _intersection(a: ContractorLike, b: ContractorLike) -> Contractor:
+    from ial.contractors.combinators.combination import Intersection  # is built on this class
+
+    return Intersection(a, b)
 
 
-class Combinator(Contractor):
-    """A contractor that is made of others. A subclass defines `_narrow`, which finds boxes of the right dimension."""
+def _union(a: ContractorLike, b: ContractorLike) -> Contractor:
+    from ial.contractors.combinators.combination import Union  # is built on this class
 
-    def contract(self, boxes: Boxes) -> Boxes:
-        """Return the narrowed boxes.
-
-        Raises
-        ------
-        ValueError
-            If the boxes are of another dimension.
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
-        require_dimension(self, boxes)
-        check_rounding()
-        return self._narrow(boxes)
-
-    @abstractmethod
-    def _narrow(self, boxes: Boxes) -> Boxes: ...
+    return Union(a, b)
 
 
 def complement(contractor: Dimensioned) -> ContractorLike:

@@ -1,11 +1,11 @@
 """Separators: a set from the inside and from the outside at once."""
 
 from collections.abc import Sequence
-from importlib import import_module
-from typing import Any, TypeGuard, cast
+from typing import TypeGuard
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.combinators.family import Family
+from ial.contractors.combinators.combination import Intersection, Union
+from ial.contractors.combinators.family import SEPARATORS_APART, Family, Member
 from ial.contractors.contractor import ContractorLike, common_dimension, complement
 from ial.contractors.space import common_space
 
@@ -61,25 +61,54 @@ class Separator:
         return self.inner.contract(boxes), self.outer.contract(boxes)
 
     def __and__(self, other: "Separator") -> "Separator":
-        return cast(Separator, _combined("intersection", [self, other]))
+        return intersect([self, other])
 
     def __or__(self, other: "Separator") -> "Separator":
-        return cast(Separator, _combined("union", [self, other]))
+        return unite([self, other])
 
     def __invert__(self) -> "Separator":
         return Separator(inner=self.outer, outer=self.inner)
 
 
-def _one(contractor: ContractorLike) -> ContractorLike:
-    """Return a contractor that counts as one: relaxation by q would otherwise mean another number of sets outside than inside."""
-    return cast(ContractorLike, _combined("intersection", [contractor])) if isinstance(contractor, Family) else contractor
+def intersect(separators: Sequence[Separator]) -> Separator:
+    """Return the points of all of several sets.
+
+    Raises
+    ------
+    TypeError
+        If something is no separator.
+    ValueError
+        If there is none, or the dimensions differ.
+    """
+    _require_separators(separators)
+    return Separator(inner=Union(*(each.inner for each in separators)), outer=Intersection(*(each.outer for each in separators)))
 
 
-def _combined(name: str, members: list[Any]) -> Any:
-    """Call a function of the room that is built on this one; it is found when an operator is used."""
-    return getattr(import_module("ial.contractors.combinators.combination"), name)(members)
+def unite(separators: Sequence[Separator]) -> Separator:
+    """Return the points of at least one of several sets.
+
+    Raises
+    ------
+    TypeError
+        If something is no separator.
+    ValueError
+        If there is none, or the dimensions differ.
+    """
+    _require_separators(separators)
+    return Separator(inner=Intersection(*(each.inner for each in separators)), outer=Union(*(each.outer for each in separators)))
 
 
 def are_separators(members: Sequence[object]) -> TypeGuard[Sequence[Separator]]:
     """Return whether there are members and all of them are separators."""
     return bool(members) and all(isinstance(member, Separator) for member in members)
+
+
+def _require_separators(members: Sequence[object]) -> None:
+    for member in members:
+        if not isinstance(member, Separator):
+            raise TypeError(f"{type(member).__name__} is not a separator. {SEPARATORS_APART}")
+
+
+def _one(contractor: Member) -> ContractorLike:
+    """Return a contractor that counts as one: relaxation by q would otherwise mean another number of sets outside than inside."""
+    return Intersection(contractor) if isinstance(contractor, Family) else contractor

@@ -163,11 +163,6 @@ class LaserScan:
 
         They enclose ``angle_min + i · angle_increment`` for every real angle and increment that round to the given float32 numbers; the
         sensor's own bearing error comes on top. For a lidar that hangs upside down the sign is reversed.
-
-        Raises
-        ------
-        RoundingModeError
-            If the processor does not round to nearest.
         """
         index = np.arange(len(self.ranges), dtype=np.float64)
         first, increment = _read_as(self.angle_min), _read_as(self.angle_increment)

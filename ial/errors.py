@@ -38,4 +38,8 @@ class StreamError(IalError):
 
 
 class RoundingModeError(IalError):
-    """The processor does not round to nearest, or flushes subnormal numbers to zero: no bound could be trusted."""
+    """The processor does not round to nearest, or flushes subnormal numbers to zero: no bound could be trusted.
+
+    Whatever computes a bound raises it, on every thread that works on it: see `ial.contractors.check_rounding`. So the docstrings of such
+    functions do not say it again.
+    """

@@ -5,7 +5,7 @@ import re
 import runpy
 import subprocess
 from collections.abc import Iterator
-from graphlib import TopologicalSorter
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -14,6 +14,9 @@ ROOT = Path(__file__).resolve().parent.parent
 
 HOUSE = runpy.run_path(str(ROOT / "docs" / "house.py"))
 ROOMS = HOUSE["rooms"](HOUSE["PAGE"].read_text(encoding="utf-8"))  # the table of floors of docs/developing/architecture.md
+UPWARD = {  # the only imports that close a circle, and so stand inside a function
+    ("ial.contractors.contractor", "ial.contractors.combinators.combination"): "the operators & and |",
+}
 NUMBERED = {  # files that hold numbers as small as a margin, and are none that widens a bound
     "contractors/rounding.py": "asks the processor how it rounds",
     "contractors/solving/zeros.py": "the width of a first guess, which is then proved or not",
@@ -47,11 +50,12 @@ def modules() -> dict[str, Path]:
 MODULES = modules()
 
 
-def imports(module: str, at_run_time: bool = False) -> Iterator[str]:
-    """Yield the modules of ial that a module imports, anywhere in its text; `at_run_time` leaves out what only type checkers import."""
-    tree = ast.parse(MODULES[module].read_text())
-    if at_run_time:
-        tree.body = [node for node in tree.body if not (isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING")]
+def imports(module: str) -> Iterator[str]:
+    """Yield the modules of ial that a module imports, anywhere in its text, also inside functions and for type checkers only."""
+    yield from imported(ast.parse(MODULES[module].read_text()))
+
+
+def imported(tree: ast.AST) -> Iterator[str]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names if alias.name.split(".")[0] == "ial")
@@ -59,6 +63,19 @@ def imports(module: str, at_run_time: bool = False) -> Iterator[str]:
             for alias in node.names:
                 deeper = f"{node.module}.{alias.name}"
                 yield deeper if deeper in MODULES else str(node.module)
+
+
+def hidden_imports(text: str) -> list[str]:
+    """Return the calls of a text that import a module by its name, unless the name says at once that it is none of ial's."""
+    found = []
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] in {"import_module", "__import__", "resolve_name"}:
+            name = node.args[0] if node.args else None
+            first = name.values[0] if isinstance(name, ast.JoinedStr) else name
+            known = first.value if isinstance(first, ast.Constant) else ""
+            if not re.match(r"(?!ial\b)\w", str(known)):
+                found.append(ast.unparse(node))
+    return found
 
 
 def room(module: str) -> str:
@@ -107,8 +124,54 @@ def test_a_room_imports_only_from_beneath(module: str) -> None:
     assert {target for target in targets if not may_import(room(module), room(target))} == set()
 
 
+def graph() -> dict[str, set[str]]:
+    """Who imports whom."""
+    return {name: set(imports(name)) - {"ial", name} for name in MODULES.keys() - {"ial"}}
+
+
 def test_no_circles() -> None:
-    TopologicalSorter({name: set(imports(name, at_run_time=True)) - {"ial", name} for name in MODULES.keys() - {"ial"}}).prepare()
+    known = graph()
+    for importer, target in UPWARD:
+        known[importer].remove(target)
+    TopologicalSorter(known).prepare()
+
+
+@pytest.mark.parametrize(("importer", "target"), UPWARD)
+def test_an_import_that_closes_a_circle_stands_inside_a_function(importer: str, target: str) -> None:
+    known = graph()
+    for other in UPWARD.keys() - {(importer, target)}:
+        known[other[0]].remove(other[1])
+    with pytest.raises(CycleError):
+        TopologicalSorter(known).prepare()
+    tree = ast.parse(MODULES[importer].read_text())
+    inside = {id(node) for function in ast.walk(tree) if isinstance(function, ast.FunctionDef) for node in ast.walk(function)}
+    closing = [node for node in ast.walk(tree) if isinstance(node, ast.Import | ast.ImportFrom) and target in set(imported(node))]
+    assert all(id(node) in inside for node in closing)
+
+
+@pytest.mark.parametrize("module", sorted(MODULES.keys() - {"ial.lazy"}))
+def test_no_import_is_hidden(module: str) -> None:
+    assert hidden_imports(MODULES[module].read_text()) == [], "write an import statement, which every reader and every tool sees"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "import_module('ial.pose')",
+        "importlib.import_module(f'ial.{x}')",
+        "__import__('ial')",
+        "import_module(name)",
+        "import_module(f'{x}')",
+        "import_module('.pose', 'ial')",
+    ],
+)
+def test_hidden_imports_are_recognized(text: str) -> None:
+    assert hidden_imports(text) == [text]
+
+
+@pytest.mark.parametrize("text", ["import_module('numba')", "import_module(f'automata.fa.{kind}')", "import_module('ialib')"])
+def test_imports_of_others_are_not_hidden(text: str) -> None:
+    assert hidden_imports(text) == []
 
 
 @pytest.mark.parametrize("module", sorted(MODULES))
@@ -146,6 +209,13 @@ def test_margins_have_names_and_one_place() -> None:
             found |= {name for node in ast.walk(ast.parse(file.read_text())) if looks_like_a_margin(node)}
     assert found - NUMBERED.keys() == set(), "use a name of margins.py, and say what it covers"
     assert NUMBERED.keys() - found == set()
+
+
+def test_what_every_bound_raises_is_said_once() -> None:
+    """`RoundingModeError` says so itself, and where it comes from; no other docstring lists it."""
+    listed = re.compile(r"^ +RoundingModeError$", re.MULTILINE)
+    files = {file.relative_to(ROOT).as_posix() for file in MODULES.values() if listed.search(file.read_text())}
+    assert files == {"contractors/rounding.py", "contractors/threads.py"}
 
 
 def test_no_path_of_a_machine() -> None:

@@ -20,6 +20,7 @@ ACROSS = {  # tests of no single file, and what they are of
     "lidar/test_scenes.py": "known scenes, from the recording to the estimate",
     "lidar/test_symmetry.py": "maps that look the same after a rotation",
     "lidar/test_turns.py": "intervals of headings of any turn, at every entry",
+    "membership/test_robots.py": "every robot through the one filter",
     "maps/test_package.py": "what importing the package costs",
     "results/test_bounce_pictures.py": "one filter in every picture",
     "study/test_independence.py": "measures share no code with what they measure",
@@ -81,6 +82,7 @@ UNMIRRORED = {  # tests that also stand for other files than their own; a file t
     "maps/polygons/test_direction.py": ["exact_cosine"],
     "maps/polygons/test_polygon.py": ["ring"],
     "results/lidar/test_result_folder.py": ["sink"],
+    "membership/test_robots.py": ["lapses", "model", "worlds"],
     "results/lidar/test_picture.py": ["panels", "../palette"],
     "results/test_bounce_pictures.py": [
         "bouncing/automaton_picture",

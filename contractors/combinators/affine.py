@@ -71,8 +71,6 @@ class Affine:
     ------
     ValueError
         If the shapes do not fit, a number is not finite, or M cannot be proved to be invertible.
-    RoundingModeError
-        If the processor does not round to nearest.
     """
 
     def __init__(self, matrix: npt.ArrayLike, offset: npt.ArrayLike) -> None:
@@ -102,8 +100,6 @@ class Affine:
         ------
         ValueError
             If a number is not finite.
-        RoundingModeError
-            If the processor does not round to nearest.
         """
         check_rounding()
         if not np.isfinite([x, y, heading_rad]).all():
@@ -130,8 +126,6 @@ class Affine:
         ------
         ValueError
             If the boxes are of another dimension.
-        RoundingModeError
-            If the processor does not round to nearest.
         """
         if boxes.dimension != self.dimension:
             raise ValueError(f"the boxes have {boxes.dimension} dimensions; the map is of {self.dimension}")

@@ -1,20 +1,47 @@
-"""Intersection, union and negation: all of several constraints, at least one of them, or not a constraint."""
+"""Intersection and union: all of several constraints, or at least one of them. Each is the other's complement."""
 
-from collections.abc import Iterable, Sequence
-from typing import overload
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.combinators.family import Family, Member, Members, members_of, several
+from ial.contractors.checked_contractor import CheckedContractor
+from ial.contractors.combinators.family import Family, Member, members_of
 from ial.contractors.combinators.relaxation import Relaxed
 from ial.contractors.combinators.rows import PAYS, emptied, occupied, outside, spread, widen
-from ial.contractors.contractor import Combinator, Contractor, ContractorLike, common_dimension, complement
-from ial.contractors.separator import Separator, are_separators
+from ial.contractors.contractor import Contractor, ContractorLike, common_dimension, complement
 from ial.contractors.space import common_space
 
 
-class Intersection(Combinator):
+class _Combination(CheckedContractor):
+    """What an intersection and a union share: their members.
+
+    Parameters
+    ----------
+    members
+        Contractors and families.
+    kind
+        Members of this very class give their own members.
+    outliers
+        Of a family, which counts as one member here, how many constraints may fail.
+    """
+
+    def __init__(self, members: Iterable[Member], kind: type["_Combination"], outliers: Callable[[Family], int]) -> None:
+        known = members_of(members)
+        self.dimension = common_dimension(known)
+        self.space = common_space(known)
+        flat: list[ContractorLike] = []
+        for member in known:
+            if isinstance(member, Family):
+                flat.append(Relaxed(member, outliers=outliers(member)))
+            elif isinstance(member, _Combination) and type(member) is kind:
+                flat.extend(member.contractors)
+            else:
+                flat.append(member)
+        self.contractors: tuple[ContractorLike, ...] = tuple(flat)
+
+
+class Intersection(_Combination):
     """All of several constraints: the contractors are applied one after the other, to the rows that are not yet empty.
 
     Parameters
@@ -32,16 +59,7 @@ class Intersection(Combinator):
     """
 
     def __init__(self, *contractors: Member) -> None:
-        members = members_of(contractors)
-        self.dimension = common_dimension(members)
-        self.space = common_space(members)
-        flat: list[ContractorLike] = []
-        for member in members:
-            if isinstance(member, Family):
-                flat.append(Relaxed(member, outliers=0))
-            else:
-                flat.extend(member.contractors if type(member) is Intersection else [member])
-        self.contractors: tuple[ContractorLike, ...] = tuple(flat)
+        super().__init__(contractors, Intersection, lambda family: 0)
 
     def __repr__(self) -> str:
         return " & ".join(f"({contractor!r})" for contractor in self.contractors)
@@ -76,7 +94,7 @@ class Intersection(Combinator):
         """Note how many rows a contractor was given, and how many it left."""
 
 
-class Union(Combinator):
+class Union(_Combination):
     """At least one of several constraints: the hull of what the contractors leave of each box.
 
     A row whose hull is as large as the row itself is not passed on to further contractors.
@@ -95,16 +113,7 @@ class Union(Combinator):
     """
 
     def __init__(self, *contractors: Member) -> None:
-        members = members_of(contractors)
-        self.dimension = common_dimension(members)
-        self.space = common_space(members)
-        flat: list[ContractorLike] = []
-        for member in members:
-            if isinstance(member, Family):
-                flat.append(Relaxed(member, outliers=member.count - 1))
-            else:
-                flat.extend(member.contractors if type(member) is Union else [member])
-        self.contractors: tuple[ContractorLike, ...] = tuple(flat)
+        super().__init__(contractors, Union, lambda family: family.count - 1)
 
     def __repr__(self) -> str:
         return " | ".join(f"({contractor!r})" for contractor in self.contractors)
@@ -131,100 +140,3 @@ class Union(Combinator):
             if len(left) <= PAYS * len(rows):
                 rows, boxes = rows[left], boxes[left]
         return hull
-
-
-@overload
-def intersection(contractors: Iterable[Separator]) -> Separator: ...
-@overload
-def intersection(contractors: Members) -> Contractor: ...
-def intersection(contractors: Iterable[Separator] | Members) -> Contractor | Separator:
-    """Return the constraint that all of several constraints hold: ``a & b`` of many.
-
-    Parameters
-    ----------
-    contractors
-        Contractors and families, or separators; all of one dimension. A family alone need not be put into a list.
-
-    Returns
-    -------
-    Contractor or Separator
-        The contractors are applied one after the other. For separators, the outer contractors are, and the hull of what each inner
-        contractor leaves is taken.
-
-    Raises
-    ------
-    TypeError
-        If contractors and separators are mixed.
-    ValueError
-        If there is none, or the dimensions differ.
-
-    References
-    ----------
-    Chabert, Jaulin: Contractor programming, Artificial Intelligence 173 (2009), section 3.
-    """
-    members = several(contractors)
-    if are_separators(members):
-        return Separator(inner=Union(*_inner(members)), outer=Intersection(*_outer(members)))
-    return Intersection(*members_of(members))
-
-
-@overload
-def union(contractors: Iterable[Separator]) -> Separator: ...
-@overload
-def union(contractors: Members) -> Contractor: ...
-def union(contractors: Iterable[Separator] | Members) -> Contractor | Separator:
-    """Return the constraint that at least one of several constraints holds: ``a | b`` of many.
-
-    Parameters
-    ----------
-    contractors
-        Contractors and families, or separators; all of one dimension. A family alone need not be put into a list.
-
-    Returns
-    -------
-    Contractor or Separator
-        Of each box, the hull of what the contractors leave. For separators, the hull of what the outer contractors leave, and the inner
-        contractors one after the other.
-
-    Raises
-    ------
-    TypeError
-        If contractors and separators are mixed.
-    ValueError
-        If there is none, or the dimensions differ.
-
-    References
-    ----------
-    Chabert, Jaulin: Contractor programming, Artificial Intelligence 173 (2009), section 3.
-    """
-    members = several(contractors)
-    if are_separators(members):
-        return Separator(inner=Intersection(*_inner(members)), outer=Union(*_outer(members)))
-    return Union(*members_of(members))
-
-
-@overload
-def negation(contractor: Separator) -> Separator: ...
-@overload
-def negation(contractor: ContractorLike) -> ContractorLike: ...
-def negation(contractor: Separator | ContractorLike) -> ContractorLike | Separator:
-    """Return the constraint that a constraint does not hold, its boundary included: ``~a``.
-
-    For a separator the two contractors change places. For a contractor its complement is returned where its class knows one; combinators
-    know theirs if their members do: an intersection becomes a union of complements, a relaxed intersection of n constraints of which q may
-    fail becomes one of n complements of which n − q − 1 may fail.
-
-    Raises
-    ------
-    TypeError
-        If the complement is not known.
-    """
-    return ~contractor if isinstance(contractor, Separator) else complement(contractor)
-
-
-def _inner(separators: Sequence[Separator]) -> Iterable[ContractorLike]:
-    return (separator.inner for separator in separators)
-
-
-def _outer(separators: Sequence[Separator]) -> Iterable[ContractorLike]:
-    return (separator.outer for separator in separators)

@@ -7,12 +7,13 @@ from typing import overload
 import numpy as np
 
 from ial.contractors.boxes import Boxes, FloatArray
+from ial.contractors.checked_contractor import CheckedContractor
 from ial.contractors.combinators.family import Family
-from ial.contractors.contractor import Combinator, Contractor, ContractorLike, complement
+from ial.contractors.contractor import Contractor, ContractorLike, complement
 from ial.contractors.separator import Separator
 
 
-class Cylinder(Combinator):
+class Cylinder(CheckedContractor):
     """A constraint on some of the variables of a larger space; the others are free. See `where`.
 
     Parameters

@@ -28,6 +28,9 @@ class Family(Dimensioned, Protocol):
         ...
 
 
+SEPARATORS_APART = "Separators combine with separators only: Separator.of(contractor) makes one where the complement is known"
+"""What to do about a mixture, at the end of a message."""
+
 Member = ContractorLike | Family
 Members = Iterable[Member] | Family
 
@@ -64,8 +67,7 @@ def members_of(contractors: Iterable[object]) -> tuple[Member, ...]:
                 raise ValueError(f"the family {type(member).__name__} holds {member.count} constraints; give at least one")
         elif not (hasattr(member, "dimension") and callable(getattr(member, "contract", None))):
             raise TypeError(
-                f"{type(member).__name__} is not a contractor, which has a dimension and a method contract(boxes). "
-                "Separators combine with separators only: Separator.of(contractor) makes one where the complement is known"
+                f"{type(member).__name__} is not a contractor, which has a dimension and a method contract(boxes). {SEPARATORS_APART}"
             )
     return cast(tuple[Member, ...], members)
 

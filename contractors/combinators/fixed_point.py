@@ -3,8 +3,9 @@
 from typing import overload
 
 from ial.contractors.boxes import Boxes
+from ial.contractors.checked_contractor import CheckedContractor
 from ial.contractors.combinators.rows import occupied
-from ial.contractors.contractor import Combinator, Contractor, ContractorLike, complement
+from ial.contractors.contractor import Contractor, ContractorLike, complement
 from ial.contractors.kernels import kernel
 from ial.contractors.separator import Separator
 from ial.contractors.space import common_space
@@ -30,7 +31,7 @@ def _shrunk(before_lower, before_upper, lower, upper, ratio):  # type: ignore[no
     return found[:count]
 
 
-class FixedPoint(Combinator):
+class FixedPoint(CheckedContractor):
     """A contractor, repeated on each row while some side of it shrinks by more than `ratio`. See `fixpoint`.
 
     Parameters
@@ -49,10 +50,7 @@ class FixedPoint(Combinator):
     """
 
     def __init__(self, contractor: ContractorLike, ratio: float = 0.05, max_rounds: int = 100) -> None:
-        if not 0.0 <= ratio < 1.0:
-            raise ValueError(f"the ratio is {ratio}; give a number from 0 to less than 1")
-        if max_rounds < 1:
-            raise ValueError(f"the number of rounds is {max_rounds}; give at least 1")
+        check_rounds(ratio, max_rounds)
         self.dimension = contractor.dimension
         self.space = common_space([contractor])
         self.contractor = contractor
@@ -81,6 +79,20 @@ class FixedPoint(Combinator):
             found.lower[rows], found.upper[rows] = rest.lower, rest.upper
             rows = rows[_shrunk(before.lower, before.upper, rest.lower, rest.upper, self.ratio)]
         return found
+
+
+def check_rounds(ratio: float, max_rounds: int) -> None:
+    """Raise unless rounds can end so.
+
+    Raises
+    ------
+    ValueError
+        Unless 0 <= `ratio` < 1 and `max_rounds` is at least 1.
+    """
+    if not 0.0 <= ratio < 1.0:
+        raise ValueError(f"the ratio is {ratio}; give a number from 0 to less than 1")
+    if max_rounds < 1:
+        raise ValueError(f"the number of rounds is {max_rounds}; give at least 1")
 
 
 @overload

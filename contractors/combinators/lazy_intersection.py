@@ -1,13 +1,8 @@
 """The lazy intersection: contractors that have emptied most boxes come first."""
 
-from collections.abc import Iterable
-from typing import overload
-
 from ial.contractors.boxes import Boxes
-from ial.contractors.combinators.combination import Intersection, union
-from ial.contractors.combinators.family import Member, Members, members_of, several
-from ial.contractors.contractor import Contractor
-from ial.contractors.separator import Separator, are_separators
+from ial.contractors.combinators.combination import Intersection
+from ial.contractors.combinators.family import Member
 
 
 class LazyIntersection(Intersection):
@@ -42,33 +37,3 @@ class LazyIntersection(Intersection):
     def _learn(self, at: int, passed: int, left: int) -> None:
         self._passed[at] += passed
         self._left[at] += left
-
-
-@overload
-def lazy(contractors: Iterable[Separator]) -> Separator: ...
-@overload
-def lazy(contractors: Members) -> Contractor: ...
-def lazy(contractors: Iterable[Separator] | Members) -> Contractor | Separator:
-    """Return the intersection of several constraints, which learns their order: those that emptied the largest share of rows come first.
-
-    The set of solutions is that of `intersection`. The boxes on the way may differ, since contractors that are applied in another
-    order narrow differently; they depend on the batches that this object has seen before, and on nothing else: rows are counted, no
-    time is measured. A new object starts anew, in the order given.
-
-    Parameters
-    ----------
-    contractors
-        Contractors and families, or separators (whose outer contractors are ordered); all of one dimension.
-
-    Raises
-    ------
-    TypeError
-        If contractors and separators are mixed.
-    ValueError
-        If there is none, or the dimensions differ.
-    """
-    members = several(contractors)
-    if are_separators(members):
-        outer = LazyIntersection(*(member.outer for member in members))
-        return Separator(inner=union(member.inner for member in members), outer=outer)
-    return LazyIntersection(*members_of(members))

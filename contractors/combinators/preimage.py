@@ -3,7 +3,8 @@
 from typing import Protocol, overload
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.contractor import Combinator, Contractor, ContractorLike, complement
+from ial.contractors.checked_contractor import CheckedContractor
+from ial.contractors.contractor import Contractor, ContractorLike, complement
 from ial.contractors.separator import Separator
 
 
@@ -15,7 +16,7 @@ class BoxFunction(Protocol):
         ...
 
 
-class Preimage(Combinator):
+class Preimage(CheckedContractor):
     """The points x with f(x) in a set, for a bijection f with a known inverse. See `transform`.
 
     Parameters

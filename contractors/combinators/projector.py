@@ -8,9 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes, FloatArray
+from ial.contractors.checked_contractor import CheckedContractor
 from ial.contractors.combinators.cylinder import checked_axes, columns
 from ial.contractors.combinators.rows import emptied, occupied, outside, widen
-from ial.contractors.contractor import Combinator, Contractor, ContractorLike
+from ial.contractors.contractor import Contractor, ContractorLike
 from ial.contractors.separator import Separator
 
 IntArray = npt.NDArray[np.int64]
@@ -18,7 +19,7 @@ IntArray = npt.NDArray[np.int64]
 _BATCH = 1 << 14
 
 
-class _Projection(Combinator):
+class _Projection(CheckedContractor):
     """What the two contractors of a projection share: for each row, a search through the values of the hidden variables.
 
     A subclass says what the search knows of a row, as boxes `found` that it changes in place.

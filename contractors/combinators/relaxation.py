@@ -1,19 +1,17 @@
 """Relaxed intersection: the points that satisfy all of several constraints but at most q."""
 
 import operator
-from collections.abc import Iterable
-from typing import overload
 
 import numpy as np
 
 from ial.contractors.boxes import Boxes, FloatArray
+from ial.contractors.checked_contractor import CheckedContractor
 from ial.contractors.combinators.exact_relaxation import intersect_exactly, require_affordable
-from ial.contractors.combinators.family import Family, Member, Members, count_of, members_of, several
+from ial.contractors.combinators.family import Family, Member, count_of, members_of
 from ial.contractors.combinators.rows import PAYS
 from ial.contractors.combinators.trivial_sets import EmptySet
-from ial.contractors.contractor import Combinator, Contractor, common_dimension, complement
+from ial.contractors.contractor import Contractor, common_dimension, complement
 from ial.contractors.kernels import kernel
-from ial.contractors.separator import Separator, are_separators
 from ial.contractors.space import common_space
 from ial.contractors.threads import run
 
@@ -121,8 +119,6 @@ def relaxed_intersection(lower: FloatArray, upper: FloatArray, outliers: int, *,
     ------
     ValueError
         If the shapes do not fit, `outliers` is negative, or the exact hull could take too long.
-    RoundingModeError
-        If the processor does not round to nearest.
 
     References
     ----------
@@ -152,7 +148,7 @@ def _differs(count: int, dimension: int, outliers: int) -> bool:
     return dimension > 1 and 0 < outliers < count - 1
 
 
-class Relaxed(Combinator):
+class Relaxed(CheckedContractor):
     """All of several constraints but at most q: the relaxed intersection of what the contractors leave of each box. See `relaxed`.
 
     Parameters
@@ -229,47 +225,3 @@ def _each(member: Member, boxes: Boxes) -> tuple[FloatArray, FloatArray]:
         return lower, upper
     part = member.contract(boxes)
     return part.lower[:, None], part.upper[:, None]
-
-
-@overload
-def relaxed(contractors: Iterable[Separator], outliers: int, *, exact: bool = ...) -> Separator: ...
-@overload
-def relaxed(contractors: Members, outliers: int, *, exact: bool = ...) -> Contractor: ...
-def relaxed(contractors: Iterable[Separator] | Members, outliers: int, *, exact: bool = False) -> Contractor | Separator:
-    """Return the constraint that all of several constraints hold but at most q.
-
-    Parameters
-    ----------
-    contractors
-        Contractors and families, or separators; all of one dimension. A family alone need not be put into a list.
-    outliers
-        The number of constraints that may fail, q >= 0. With q >= their number nothing is required.
-    exact
-        By default each axis is handled by itself, which is exact in one dimension. ``exact=True`` takes the hull of the points in enough of
-        the narrowed boxes in d dimensions too; it is never larger, and meant for few constraints: see `relaxed_intersection`.
-
-    Returns
-    -------
-    Contractor or Separator
-        For n separators the outer contractors are relaxed by q, and the inner ones by n − q − 1: a point is outside where at least q + 1
-        constraints fail.
-
-    Raises
-    ------
-    TypeError
-        If contractors and separators are mixed.
-    ValueError
-        If there is none, the dimensions differ, `outliers` is negative, or the exact hull could take too long.
-
-    References
-    ----------
-    Jaulin: Robust set-membership state estimation; application to underwater robotics, Automatica 45 (2009).
-    """
-    members = several(contractors)
-    if not are_separators(members):
-        return Relaxed(*members_of(members), outliers=outliers, exact=exact)
-    outer = Relaxed(*(member.outer for member in members), outliers=outliers, exact=exact)
-    if outliers >= len(members):
-        return Separator(inner=EmptySet(outer.dimension), outer=outer)
-    inner = Relaxed(*(member.inner for member in members), outliers=len(members) - outliers - 1, exact=exact)
-    return Separator(inner=inner, outer=outer)

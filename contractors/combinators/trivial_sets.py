@@ -3,10 +3,10 @@
 import numpy as np
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.contractor import Combinator
+from ial.contractors.checked_contractor import CheckedContractor
 
 
-class EmptySet(Combinator):
+class EmptySet(CheckedContractor):
     """No point at all: every box is emptied.
 
     Parameters
@@ -26,7 +26,7 @@ class EmptySet(Combinator):
         return WholeSpace(self.dimension)
 
 
-class WholeSpace(Combinator):
+class WholeSpace(CheckedContractor):
     """Every point: boxes stay as they are.
 
     Parameters

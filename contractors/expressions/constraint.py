@@ -7,18 +7,19 @@ from typing import Any
 import numpy as np
 
 from ial.contractors.boxes import Boxes, FloatArray
+from ial.contractors.checked_contractor import CheckedContractor
+from ial.contractors.combinators.relaxation import Relaxed
 from ial.contractors.contractor import Contractor, require_dimension
 from ial.contractors.expressions.derivative import conditions, met
 from ial.contractors.expressions.operation import Bounds
 from ial.contractors.expressions.tape import Node, Tape
-from ial.contractors.rounding import check_rounding
 from ial.contractors.space import Space
 
 Relation = tuple[Node, Bounds]
 """An expression and the bounds it must lie in, two arrays of one value, or of one for each row of the constants."""
 
 
-class Constraint(Contractor):
+class Constraint(CheckedContractor):
     """Expressions that must lie in intervals: {x : f_j(x) ∈ Y_j for all j}, where f_j is defined.
 
     Made by comparing an expression, and joined by ``&``; boxes have one side for each variable of the space, in the order of declaration.
@@ -55,17 +56,7 @@ class Constraint(Contractor):
         """The sides of a box that the constraint depends on."""
         return tuple(sorted(self.tape.axes.tolist()))
 
-    def contract(self, boxes: Boxes) -> Boxes:
-        """Return the narrowed boxes.
-
-        Raises
-        ------
-        ValueError
-            If the boxes are of another dimension.
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
-        require_dimension(self, boxes)
+    def _narrow(self, boxes: Boxes) -> Boxes:
         return self.tape.narrow(boxes, self._targets)
 
     def complement(self) -> Contractor:
@@ -90,7 +81,8 @@ class Constraint(Contractor):
 class ConstraintFamily(Constraint):
     """The same for constants that differ from row to row: m constraints of one form, for example one for each beam of a scan.
 
-    As a contractor it stands for all of them; `relaxed`, `union` and `intersection` count it as m members.
+    As a contractor it stands for all of them, each applied to the box as it was given; `relaxed`, `union` and `intersection` count it as
+    m members.
     """
 
     @property
@@ -105,8 +97,6 @@ class ConstraintFamily(Constraint):
         ------
         ValueError
             If the boxes are of another dimension.
-        RoundingModeError
-            If the processor does not round to nearest.
         """
         require_dimension(self, boxes)
         shape = (len(boxes), self.count, self.dimension)
@@ -120,30 +110,17 @@ class ConstraintFamily(Constraint):
         ------
         ValueError
             If there are not as many boxes as constraints, or they are of another dimension.
-        RoundingModeError
-            If the processor does not round to nearest.
         """
         require_dimension(self, boxes)
         if len(boxes) != self.count:
             raise ValueError(f"there are {len(boxes)} boxes and {self.count} constraints; give one box for each constraint")
         return self.tape.narrow(boxes, self._targets)
 
-    def contract(self, boxes: Boxes) -> Boxes:
-        """Return the boxes narrowed by all m constraints, each applied to the box as it was given.
-
-        Raises
-        ------
-        ValueError
-            If the boxes are of another dimension.
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
-        from ial.contractors.combinators.relaxation import Relaxed
-
+    def _narrow(self, boxes: Boxes) -> Boxes:
         return Relaxed(self, outliers=0).contract(boxes)
 
 
-class Complement(Contractor):
+class Complement(CheckedContractor):
     """The points that do not satisfy a constraint, because an expression lies outside its interval or is not defined.
 
     Only boxes on which all expressions are defined everywhere are narrowed: what forward–backward contraction removes of another box might
@@ -177,18 +154,7 @@ class Complement(Contractor):
         """Return the constraint itself."""
         return self.constraint
 
-    def contract(self, boxes: Boxes) -> Boxes:
-        """Return the narrowed boxes.
-
-        Raises
-        ------
-        ValueError
-            If the boxes are of another dimension.
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
-        require_dimension(self, boxes)
-        check_rounding()
+    def _narrow(self, boxes: Boxes) -> Boxes:
         count = getattr(self.constraint, "count", 1)
         shape = (len(boxes), count, self.dimension)
         parts = [tape.narrow(boxes, targets, members=count) for tape, targets in self._sides]

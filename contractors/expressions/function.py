@@ -6,7 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.contractor import Combinator, Contractor, ContractorLike, complement, require_dimension
+from ial.contractors.checked_contractor import CheckedContractor
+from ial.contractors.contractor import Contractor, ContractorLike, complement, require_dimension
 from ial.contractors.expressions.derivative import conditions, gradient, met
 from ial.contractors.expressions.expression import Expression
 from ial.contractors.expressions.operation import Bounds
@@ -64,8 +65,6 @@ class Function:
         ------
         ValueError
             If the boxes are of another dimension.
-        RoundingModeError
-            If the processor does not round to nearest.
         """
         require_dimension(self, boxes)
         found = Boxes(*self.tape.evaluate(boxes))
@@ -80,8 +79,6 @@ class Function:
             If a formula holds an operation without a known derivative.
         ValueError
             If the boxes are of another dimension.
-        RoundingModeError
-            If the processor does not round to nearest.
         """
         require_dimension(self, boxes)
         if self._jacobian is None:
@@ -124,7 +121,7 @@ class Function:
         return Inverse(self, constraint)
 
 
-class Inverse(Combinator):
+class Inverse(CheckedContractor):
     """The points x at which f is defined and f(x) satisfies a constraint: forward, contract, backward.
 
     Parameters

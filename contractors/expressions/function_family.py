@@ -3,8 +3,9 @@
 import numpy as np
 
 from ial.contractors.boxes import Boxes, FloatArray
+from ial.contractors.checked_contractor import CheckedContractor
 from ial.contractors.combinators.relaxation import Relaxed
-from ial.contractors.contractor import Combinator, ContractorLike, require_dimension
+from ial.contractors.contractor import ContractorLike, require_dimension
 from ial.contractors.expressions.expression import Expression
 from ial.contractors.expressions.tape import Tape
 from ial.contractors.intervals.interval import Interval
@@ -74,7 +75,7 @@ class FunctionFamily:
         return InverseFamily(self, constraint)
 
 
-class InverseFamily(Combinator):
+class InverseFamily(CheckedContractor):
     """The points x at which f_j is defined and f_j(x) satisfies a constraint, for each of m functions f_j: forward, contract, backward.
 
     As a contractor it stands for all m; `relaxed`, `union` and `intersection` count it as m members.
@@ -114,8 +115,6 @@ class InverseFamily(Combinator):
         ------
         ValueError
             If the boxes are of another dimension.
-        RoundingModeError
-            If the processor does not round to nearest.
         """
         require_dimension(self, boxes)
         check_rounding()

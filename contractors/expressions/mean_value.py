@@ -3,7 +3,8 @@
 import numpy as np
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.contractor import Combinator, Contractor
+from ial.contractors.checked_contractor import CheckedContractor
+from ial.contractors.contractor import Contractor
 from ial.contractors.expressions.constraint import Constraint, ConstraintFamily
 from ial.contractors.expressions.function import Function
 from ial.contractors.expressions.tape import Node, ordered
@@ -14,7 +15,7 @@ from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 
 
-class MeanValue(Combinator):
+class MeanValue(CheckedContractor):
     """A constraint f(x) ∈ Y narrowed by f(m) + J·(x − m) ∈ Y, with m the middle of the box and J the derivatives on it. See `mean_value`.
 
     Parameters

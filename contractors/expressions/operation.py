@@ -13,6 +13,7 @@ from numba.core.dispatcher import Dispatcher
 from numba.core.errors import NumbaError
 from numba.extending import intrinsic
 
+from ial.contractors.intervals.interval import Interval
 from ial.contractors.kernels import callback, compile_users, kernel
 from ial.contractors.rounding import check_rounding
 from ial.contractors.threads import run
@@ -185,8 +186,6 @@ class Operation:
         chosen = max(operands, key=lambda operand: getattr(operand, "operand_rank", 0))
         if hasattr(chosen, "operate"):
             return chosen.operate(self, operands)
-        from ial.contractors.intervals.interval import Interval
-
         if any(isinstance(operand, np.ndarray) and operand.ndim for operand in operands):
             raise TypeError(f"{self.name} is applied to an array of numbers; write Boxes(points, points) for points of shape (n, d)")
         return Interval.operate(self, operands)
@@ -209,13 +208,7 @@ class Operation:
             raise TypeError(f"the function {direction} of the operation {self.name!r} cannot be compiled by Numba: {error}") from error
 
     def bounds(self, *operands: Bounds) -> Bounds:
-        """Return the results on arrays of intervals, (lower, upper), each float64 of one shape that operands broadcast to.
-
-        Raises
-        ------
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
+        """Return the results on arrays of intervals, (lower, upper), each float64 of one shape that operands broadcast to."""
         check_rounding()
         sides = [np.asarray(side, dtype=np.float64) for operand in operands for side in operand]
         shape = np.broadcast_shapes(*(side.shape for side in sides))

@@ -5,13 +5,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ial.contractors.boxes import Boxes
-from ial.contractors.combinators.combination import union
+from ial.contractors.boxes import FloatArray
+from ial.contractors.combinators.combination import Union
 from ial.contractors.combinators.trivial_sets import EmptySet
-from ial.contractors.contractor import Contractor, require_dimension
+from ial.contractors.contractor import Contractor
 from ial.contractors.geometry.distance import contract_distance
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.kernels import kernel
+from ial.contractors.row_contractor import RowContractor
 from ial.contractors.threads import run
 
 
@@ -29,7 +30,7 @@ def _contract_rows(start, stop, x, y, near, far, lower, upper):  # type: ignore[
             high[0], high[1] = xu, yu
 
 
-class Annulus(Contractor):
+class Annulus(RowContractor):
     """The contractor of "(x, y) lies at a distance from a centre that is in an interval", as a beacon's range says it.
 
     A box shrinks to the hull of its part in the annulus, up to the rounding of a few operations. With a distance from 0 on this is a disc.
@@ -65,19 +66,7 @@ class Annulus(Contractor):
             parts.append(Annulus(self.centre, Interval(0.0, self.distance.lower)))
         if self.distance.upper < math.inf:
             parts.append(Annulus(self.centre, Interval(self.distance.upper, math.inf)))
-        return union(parts) if parts else EmptySet(2)
+        return Union(*parts) if parts else EmptySet(2)
 
-    def contract(self, boxes: Boxes) -> Boxes:
-        """Return the narrowed boxes.
-
-        Raises
-        ------
-        ValueError
-            If the boxes do not have two dimensions.
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
-        require_dimension(self, boxes)
-        lower, upper = boxes.lower.copy(), boxes.upper.copy()
-        run(_contract_rows, len(boxes), *self.centre, self.distance.lower, self.distance.upper, lower, upper)
-        return Boxes(lower, upper)
+    def _narrow_rows(self, lower: FloatArray, upper: FloatArray) -> None:
+        run(_contract_rows, len(lower), *self.centre, self.distance.lower, self.distance.upper, lower, upper)

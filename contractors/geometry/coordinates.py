@@ -6,9 +6,10 @@ from typing import overload
 import numpy as np
 
 from ial.contractors.boxes import Boxes
+from ial.contractors.checked_contractor import CheckedContractor
 from ial.contractors.combinators.cylinder import columns
 from ial.contractors.combinators.rows import emptied, occupied, widen
-from ial.contractors.contractor import Combinator, Contractor, ContractorLike, complement
+from ial.contractors.contractor import Contractor, ContractorLike, complement
 from ial.contractors.geometry.polar import Polar
 from ial.contractors.intervals.arithmetic import add
 from ial.contractors.intervals.trigonometric import TWO_PI_LOWER, TWO_PI_UPPER
@@ -20,7 +21,7 @@ _POINT, _COORDINATES = (0, 1), (2, 3)  # where Polar has x, y and r, θ
 _FARTHEST_START_RAD = 1000.0
 
 
-class FromPolar(Combinator):
+class FromPolar(CheckedContractor):
     """Points (x, y) some of whose polar coordinates, within one turn, satisfy a constraint. See `from_polar`.
 
     Parameters
@@ -34,8 +35,6 @@ class FromPolar(Combinator):
     ------
     ValueError
         If the contractor is not of two variables or the start is not within ±1000 rad.
-    RoundingModeError
-        If the processor does not round to nearest.
     """
 
     dimension = 2
@@ -72,7 +71,7 @@ class FromPolar(Combinator):
         return found
 
 
-class ToPolar(Combinator):
+class ToPolar(CheckedContractor):
     """Pairs (r, θ) whose point (r·cos θ, r·sin θ) satisfies a constraint. See `to_polar`.
 
     Parameters
@@ -168,8 +167,6 @@ def from_polar(contractor: Separator | ContractorLike, start_rad: float = -math.
     ------
     ValueError
         If the contractor is not of two variables or the start is not within ±1000 rad.
-    RoundingModeError
-        If the processor does not round to nearest.
     """
     if isinstance(contractor, Separator):
         return Separator(*(FromPolar(part, start_rad) for part in (contractor.inner, contractor.outer)))

@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from ial.contractors.boxes import Boxes
-from ial.contractors.contractor import Contractor, require_dimension
+from ial.contractors.boxes import FloatArray
 from ial.contractors.intervals.arithmetic import sub
 from ial.contractors.intervals.backward import sub_backward
 from ial.contractors.intervals.reverse_polar import hypot_backward
 from ial.contractors.intervals.sets import intersect
 from ial.contractors.intervals.trigonometric import hypot
 from ial.contractors.kernels import kernel
+from ial.contractors.row_contractor import RowContractor
 from ial.contractors.threads import run
 
 
@@ -41,7 +41,7 @@ def _contract_rows(start, stop, lower, upper):  # type: ignore[no-untyped-def]
             high[0], high[1], high[2], high[3], high[4] = pu, qu, vu, wu, du
 
 
-class Distance(Contractor):
+class Distance(RowContractor):
     """The contractor of the distance of two points a and b: d = √((bx − ax)² + (by − ay)²).
 
     The variables are, in this order: ax, ay, bx, by and d, in one unit of length. A box shrinks to the hull of its solutions, up to the
@@ -56,22 +56,5 @@ class Distance(Contractor):
     variables = ("ax", "ay", "bx", "by", "d")
     dimension = len(variables)
 
-    def contract(self, boxes: Boxes) -> Boxes:
-        """Return the narrowed boxes.
-
-        Parameters
-        ----------
-        boxes
-            n boxes over `variables`.
-
-        Raises
-        ------
-        ValueError
-            If the boxes do not have five dimensions.
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
-        require_dimension(self, boxes)
-        lower, upper = boxes.lower.copy(), boxes.upper.copy()
-        run(_contract_rows, len(boxes), lower, upper)
-        return Boxes(lower, upper)
+    def _narrow_rows(self, lower: FloatArray, upper: FloatArray) -> None:
+        run(_contract_rows, len(lower), lower, upper)

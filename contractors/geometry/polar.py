@@ -4,14 +4,14 @@ import math
 
 import numpy as np
 
-from ial.contractors.boxes import Boxes
-from ial.contractors.contractor import Contractor, require_dimension
+from ial.contractors.boxes import FloatArray
 from ial.contractors.intervals.arithmetic import add, mul, sub
 from ial.contractors.intervals.reverse import mul_reverse
 from ial.contractors.intervals.reverse_polar import hypot_backward
 from ial.contractors.intervals.sets import hull, intersect
 from ial.contractors.intervals.trigonometric import HALF_PI_LOWER, HALF_PI_UPPER, LARGEST_ANGLE, atan2, cos, hypot, sin
 from ial.contractors.kernels import kernel
+from ial.contractors.row_contractor import RowContractor
 from ial.contractors.threads import run
 
 _QUADRANTS_PER_RADIAN = 2.0 / math.pi
@@ -123,7 +123,7 @@ def _contract_rows(start, stop, lower, upper):  # type: ignore[no-untyped-def]
         high[0], high[1], high[2], high[3] = xu, yu, ru, tu
 
 
-class Polar(Contractor):
+class Polar(RowContractor):
     """The contractor of polar coordinates: x = r·cos θ, y = r·sin θ, r >= 0.
 
     The variables are, in this order: x, y, r and θ, lengths in one unit, θ in radians, counter-clockwise from the x axis, a real number,
@@ -139,22 +139,5 @@ class Polar(Contractor):
     variables = ("x", "y", "r", "theta")
     dimension = len(variables)
 
-    def contract(self, boxes: Boxes) -> Boxes:
-        """Return the narrowed boxes.
-
-        Parameters
-        ----------
-        boxes
-            n boxes over `variables`.
-
-        Raises
-        ------
-        ValueError
-            If the boxes do not have four dimensions.
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
-        require_dimension(self, boxes)
-        lower, upper = boxes.lower.copy(), boxes.upper.copy()
-        run(_contract_rows, len(boxes), lower, upper)
-        return Boxes(lower, upper)
+    def _narrow_rows(self, lower: FloatArray, upper: FloatArray) -> None:
+        run(_contract_rows, len(lower), lower, upper)

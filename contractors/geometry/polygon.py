@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ial.contractors.boxes import Boxes
-from ial.contractors.contractor import Contractor, require_dimension
+from ial.contractors.boxes import FloatArray
 from ial.contractors.geometry.box_tree import following
 from ial.contractors.geometry.orientation import orientation
 from ial.contractors.geometry.segment import Segments, checked_points, contract_segments, widen
 from ial.contractors.kernels import kernel
+from ial.contractors.row_contractor import RowContractor
 from ial.contractors.threads import run
 
 INSIDE, OUTSIDE = 1, -1
@@ -47,15 +47,18 @@ def _side(x, y, tree_lower, tree_upper, starts, ends):  # type: ignore[no-untype
 
 
 @kernel
-def _contract_rows(start, stop, wanted, lower, upper, tree_lower, tree_upper, starts, ends, new_lower, new_upper):  # type: ignore[no-untyped-def]
-    """Write the hull of the part of each box on the wanted side.
+def _contract_rows(start, stop, wanted, tree_lower, tree_upper, starts, ends, lower, upper):  # type: ignore[no-untyped-def]
+    """Narrow rows in place to the hull of their part on the wanted side.
 
     A bound of that part is reached on an edge, or on a side of the box. Along such a side one comes to an edge or to a corner of the box.
     So the part on the edges and the corners on the wanted side have the same hull.
     """
+    low, high = np.empty(2), np.empty(2)
     part_low, part_high = np.empty(2), np.empty(2)
     for i in range(start, stop):
-        low, high, new_low, new_high = lower[i], upper[i], new_lower[i], new_upper[i]
+        low[:] = lower[i]
+        high[:] = upper[i]
+        new_low, new_high = lower[i], upper[i]
         contract_segments(low, high, tree_lower, tree_upper, starts, ends, new_low, new_high, part_low, part_high)
         if not (low[0] <= high[0] and low[1] <= high[1]):
             continue
@@ -72,7 +75,7 @@ def _contract_rows(start, stop, wanted, lower, upper, tree_lower, tree_upper, st
                 break
 
 
-class _Side(Contractor):
+class _Side(RowContractor):
     """The closed region on one side of the edges of a polygon.
 
     Parameters
@@ -93,33 +96,9 @@ class _Side(Contractor):
         """Return the contractor of the points on the other side, or on an edge."""
         return _Side(self.edges, -self._wanted)
 
-    def contract(self, boxes: Boxes) -> Boxes:
-        """Return the narrowed boxes.
-
-        Raises
-        ------
-        ValueError
-            If the boxes do not have two dimensions.
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
-        require_dimension(self, boxes)
-        lower, upper = np.empty_like(boxes.lower), np.empty_like(boxes.upper)
+    def _narrow_rows(self, lower: FloatArray, upper: FloatArray) -> None:
         edges, tree = self.edges, self.edges.tree
-        run(
-            _contract_rows,
-            len(boxes),
-            self._wanted,
-            boxes.lower,
-            boxes.upper,
-            tree.lower,
-            tree.upper,
-            edges.starts,
-            edges.ends,
-            lower,
-            upper,
-        )
-        return Boxes(lower, upper)
+        run(_contract_rows, len(lower), self._wanted, tree.lower, tree.upper, edges.starts, edges.ends, lower, upper)
 
 
 class Polygon(_Side):

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from ial.contractors.boxes import Boxes
-from ial.contractors.contractor import Contractor, require_dimension
+from ial.contractors.boxes import FloatArray
 from ial.contractors.geometry.polar import contract_polar
 from ial.contractors.intervals.arithmetic import add, sub
 from ial.contractors.intervals.backward import add_backward, sub_backward
 from ial.contractors.kernels import kernel
+from ial.contractors.row_contractor import RowContractor
 from ial.contractors.threads import run
 
 
@@ -31,7 +31,7 @@ def _contract_rows(start, stop, lower, upper):  # type: ignore[no-untyped-def]
             high[0], high[1], high[2], high[3], high[4], high[5], high[6] = xu, yu, tu, ru, bu, vu, wu
 
 
-class RangeBearing(Contractor):
+class RangeBearing(RowContractor):
     """The contractor of a range measurement: w = (x, y) + r·(cos(θ + γ), sin(θ + γ)) with r >= 0.
 
     The variables are, in this order: the sensor's position x, y and heading θ, the measured range r and bearing γ, and the point
@@ -47,22 +47,5 @@ class RangeBearing(Contractor):
     variables = ("x", "y", "theta", "r", "bearing", "wx", "wy")
     dimension = len(variables)
 
-    def contract(self, boxes: Boxes) -> Boxes:
-        """Return the narrowed boxes.
-
-        Parameters
-        ----------
-        boxes
-            n boxes over `variables`.
-
-        Raises
-        ------
-        ValueError
-            If the boxes do not have seven dimensions.
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
-        require_dimension(self, boxes)
-        lower, upper = boxes.lower.copy(), boxes.upper.copy()
-        run(_contract_rows, len(boxes), lower, upper)
-        return Boxes(lower, upper)
+    def _narrow_rows(self, lower: FloatArray, upper: FloatArray) -> None:
+        run(_contract_rows, len(lower), lower, upper)

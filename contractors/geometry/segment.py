@@ -3,13 +3,13 @@
 import numpy as np
 import numpy.typing as npt
 
-from ial.contractors.boxes import Boxes, FloatArray
-from ial.contractors.contractor import Contractor, require_dimension
+from ial.contractors.boxes import FloatArray
 from ial.contractors.geometry.box_tree import BoxTree, following
 from ial.contractors.intervals.arithmetic import add, mul, sub
 from ial.contractors.intervals.reverse import mul_reverse
 from ial.contractors.intervals.sets import hull, intersect
 from ial.contractors.kernels import kernel
+from ial.contractors.row_contractor import RowContractor
 from ial.contractors.threads import run
 
 _LARGEST_DIMENSION = 31
@@ -72,10 +72,14 @@ def contract_segments(low, high, tree_lower, tree_upper, starts, ends, hull_low,
 
 
 @kernel
-def _contract_rows(start, stop, lower, upper, tree_lower, tree_upper, starts, ends, new_lower, new_upper):  # type: ignore[no-untyped-def]
+def _contract_rows(start, stop, tree_lower, tree_upper, starts, ends, lower, upper):  # type: ignore[no-untyped-def]
+    """Narrow rows in place."""
+    low, high = np.empty(lower.shape[1]), np.empty(lower.shape[1])
     part_low, part_high = np.empty(lower.shape[1]), np.empty(lower.shape[1])
     for i in range(start, stop):
-        contract_segments(lower[i], upper[i], tree_lower, tree_upper, starts, ends, new_lower[i], new_upper[i], part_low, part_high)
+        low[:] = lower[i]
+        high[:] = upper[i]
+        contract_segments(low, high, tree_lower, tree_upper, starts, ends, lower[i], upper[i], part_low, part_high)
 
 
 def checked_points(points: npt.ArrayLike, name: str) -> FloatArray:
@@ -97,7 +101,7 @@ def checked_points(points: npt.ArrayLike, name: str) -> FloatArray:
     return array
 
 
-class Segments(Contractor):
+class Segments(RowContractor):
     """The contractor of "this point lies on one of m closed segments": boxes shrink to the hull of their part of the segments.
 
     Coordinates are taken as the exact numbers they are. The hull is the smallest but for the rounding of a few operations; a point of a
@@ -123,21 +127,8 @@ class Segments(Contractor):
         self.tree = BoxTree(np.minimum(begin, end), np.maximum(begin, end))
         self.starts, self.ends = begin[self.tree.order], end[self.tree.order]
 
-    def contract(self, boxes: Boxes) -> Boxes:
-        """Return the narrowed boxes.
-
-        Raises
-        ------
-        ValueError
-            If the boxes are of another dimension.
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
-        require_dimension(self, boxes)
-        lower, upper = np.empty_like(boxes.lower), np.empty_like(boxes.upper)
-        tree = self.tree
-        run(_contract_rows, len(boxes), boxes.lower, boxes.upper, tree.lower, tree.upper, self.starts, self.ends, lower, upper)
-        return Boxes(lower, upper)
+    def _narrow_rows(self, lower: FloatArray, upper: FloatArray) -> None:
+        run(_contract_rows, len(lower), self.tree.lower, self.tree.upper, self.starts, self.ends, lower, upper)
 
 
 class Segment(Segments):

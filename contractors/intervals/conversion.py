@@ -1,8 +1,8 @@
 """Intervals of other libraries: crival and pyinterval. Neither is needed to use ial; each is imported when it is asked for."""
 
 import math
-from importlib import import_module
-from types import ModuleType
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from ial.contractors.intervals.interval import Interval
@@ -16,8 +16,11 @@ def to_crival(interval: Interval) -> Any:
     ImportError
         If crival is not installed.
     """
+    with _needed("crival"):
+        import ival
+
     bounds = (math.nan, math.nan) if interval.is_empty else (interval.lower, interval.upper)
-    return _library("ival", "crival").Interval(*bounds)
+    return ival.Interval(*bounds)
 
 
 def from_crival(interval: Any) -> Interval:
@@ -43,8 +46,11 @@ def to_pyinterval(interval: Interval) -> Any:
     ImportError
         If pyinterval is not installed.
     """
+    with _needed("pyinterval"):
+        from interval import interval as pyinterval
+
     components = [] if interval.is_empty else [(interval.lower, interval.upper)]
-    return _library("interval", "pyinterval").interval(*components)
+    return pyinterval(*components)
 
 
 def from_pyinterval(interval: Any) -> Interval:
@@ -65,8 +71,9 @@ def from_pyinterval(interval: Any) -> Interval:
     return hull
 
 
-def _library(module: str, package: str) -> ModuleType:
+@contextmanager
+def _needed(package: str) -> Iterator[None]:
     try:
-        return import_module(module)
+        yield
     except ImportError as error:
         raise ImportError(f"{package} is not installed; install it with 'pip install {package}'") from error

@@ -25,8 +25,6 @@ def below(number: Number) -> float:
     ------
     TypeError
         If it is not a real number.
-    RoundingModeError
-        If the processor does not round to nearest.
     """
     nearest, exact = _nearest(number)
     return down(nearest) if nearest > exact else nearest

@@ -3,17 +3,23 @@
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar, Union
+from typing import ClassVar, Protocol, Union
 
 from ial.contractors.intervals import arithmetic, powers, sets
 from ial.contractors.intervals.double import Number, above, below, is_number, whole
 from ial.contractors.intervals.literal import bounds_of_literal
 from ial.contractors.rounding import check_rounding
 
-if TYPE_CHECKING:
-    from ial.contractors.expressions.operation import Operation
-
 Operand = Union["Interval", Number]
+
+
+class Forward(Protocol):
+    """What an interval needs of an operation."""
+
+    @property
+    def forward(self) -> Callable[..., tuple[float, float]]:
+        """The function from bounds of the operands to bounds of the result."""
+        ...
 
 
 @dataclass(frozen=True, init=False, repr=False)
@@ -90,7 +96,7 @@ class Interval:
         return cls.of_bounds(*bounds_of_literal(text))
 
     @staticmethod
-    def operate(operation: "Operation", operands: Sequence[Operand]) -> "Interval":
+    def operate(operation: Forward, operands: Sequence[Operand]) -> "Interval":
         """Return the result of an operation on intervals and numbers."""
         return _apply(operation.forward, *operands)
 

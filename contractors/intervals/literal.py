@@ -40,8 +40,6 @@ def bounds_of_literal(text: str) -> tuple[float, float]:
     ValueError
         If the text is no such literal, its bounds are in the wrong order (compared exactly), it is longer than 4096 characters or has an
         exponent beyond ±9999. Decorations are not offered.
-    RoundingModeError
-        If the processor does not round to nearest.
     """
     if len(text) > _MOST_CHARACTERS:
         raise ValueError(f"the literal {text[:20]!r}… has {len(text)} characters; at most {_MOST_CHARACTERS} are read")

@@ -41,8 +41,6 @@ def narrow(operation: Operation, result: Operand, *operands: Operand) -> tuple[I
     ------
     TypeError
         If there are more or fewer operands than the operation has.
-    RoundingModeError
-        If the processor does not round to nearest.
 
     Examples
     --------

@@ -54,8 +54,6 @@ def cluster(boxes: Boxes, circular: Sequence[int] = ()) -> Clusters:
     ------
     ValueError
         If a box is empty or has a bound that is NaN, or if there is no such axis.
-    RoundingModeError
-        If the processor does not round to nearest.
     """
     boxes = wrapped(boxes, *circular)
     around = np.zeros(boxes.dimension, dtype=np.bool_)

@@ -33,6 +33,11 @@ class Deadline:
         """Seconds until the end, 0 after it; None for ever."""
         return None if self._end is None else max(0.0, self._end - time.monotonic())
 
+    def part(self, share: float) -> "Deadline":
+        """Return a deadline that leaves a share of the time that is left."""
+        left = self.left_s
+        return Deadline(None if left is None else share * left, self._first)
+
     def portion(self, rows: int) -> int:
         """Return how many of some rows to work on next; 0 if the time is up.
 

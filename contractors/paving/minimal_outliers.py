@@ -92,8 +92,6 @@ def minimal_outliers(
         If a constraint is neither a separator nor a contractor that knows its complement, and `satisfied` is not given.
     ValueError
         If all boxes are empty, or if an argument cannot be used.
-    RoundingModeError
-        If the processor does not round to nearest.
 
     References
     ----------

@@ -102,8 +102,6 @@ def pave(
     ------
     ValueError
         If an argument cannot be used, if a bound is NaN, or if the contractor returns boxes of another shape.
-    RoundingModeError
-        If the processor does not round to nearest.
 
     References
     ----------

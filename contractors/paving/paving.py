@@ -57,11 +57,6 @@ class Paving:
 
         The lower bound is the volume of the inner boxes, the upper one that of all boxes. Volumes are added up: where the boxes that were
         searched overlap, the upper bound holds still, the lower one counts some volume twice.
-
-        Raises
-        ------
-        RoundingModeError
-            If the processor does not round to nearest.
         """
         check_rounding()
         low, high = _volume(self.inner.lower, self.inner.upper)

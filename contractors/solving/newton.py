@@ -4,7 +4,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes
-from ial.contractors.contractor import Combinator, require_dimension
+from ial.contractors.checked_contractor import CheckedContractor
+from ial.contractors.contractor import require_dimension
 from ial.contractors.expressions.function import Function
 from ial.contractors.intervals.arithmetic import add, mul, sub
 from ial.contractors.intervals.reverse import mul_reverse
@@ -14,7 +15,7 @@ from ial.contractors.rounding import check_rounding
 from ial.contractors.threads import run
 
 
-class Newton(Combinator):
+class Newton(CheckedContractor):
     """The zeros of a function from n to n dimensions: points x at which f is defined and f(x) = 0.
 
     A box is narrowed by forward and backward evaluation of f(x) = 0, and then by its mean-value form C·f(m) + C·J·(x − m) = 0, with m the
@@ -68,8 +69,6 @@ class Newton(Combinator):
         ------
         ValueError
             If the boxes are of another dimension.
-        RoundingModeError
-            If the processor does not round to nearest.
         """
         require_dimension(self, boxes)
         check_rounding()

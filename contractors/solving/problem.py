@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 
 from ial.contractors.boxes import Boxes
+from ial.contractors.checked_contractor import CheckedContractor
 from ial.contractors.combinators.family import Member, members_of
 from ial.contractors.combinators.trivial_sets import WholeSpace
-from ial.contractors.contractor import Combinator
 from ial.contractors.expressions.constraint import Constraint, ConstraintFamily
 from ial.contractors.expressions.expression import Expression
 from ial.contractors.expressions.mean_value import mean_value
@@ -22,7 +22,7 @@ from ial.contractors.space import Space
 Domains = Mapping[Any, Any] | Sequence[Any] | Boxes
 
 
-class Problem(Combinator):
+class Problem(CheckedContractor):
     """A constraint satisfaction problem: the points of a box that satisfy all of several constraints.
 
     It is itself a contractor, and can so be a part of other constraints.
@@ -97,8 +97,6 @@ class Problem(Combinator):
         ------
         ValueError
             If `ratio` or `max_rounds` is out of range.
-        RoundingModeError
-            If the processor does not round to nearest.
         """
         return self._named(self._propagated(self.constraints, ratio, max_rounds).contract(self.box))
 
@@ -120,8 +118,6 @@ class Problem(Combinator):
         ------
         ValueError
             If an argument cannot be used.
-        RoundingModeError
-            If the processor does not round to nearest.
         """
         return pave(self, self.box, precision, **options)
 
@@ -147,8 +143,6 @@ class Problem(Combinator):
         ------
         ValueError
             If the problem is not proved empty at this precision.
-        RoundingModeError
-            If the processor does not round to nearest.
         """
         found = conflict(self.constraints, self._propagated, self.box, precision, **options)
         if found is None:

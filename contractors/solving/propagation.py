@@ -4,15 +4,17 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes
+from ial.contractors.checked_contractor import CheckedContractor
 from ial.contractors.combinators.combination import Intersection, Union
 from ial.contractors.combinators.family import Family, Member, members_of
+from ial.contractors.combinators.fixed_point import check_rounds
 from ial.contractors.combinators.relaxation import Relaxed
-from ial.contractors.contractor import Combinator, common_dimension
+from ial.contractors.contractor import common_dimension
 from ial.contractors.expressions.constraint import Constraint, ConstraintFamily
 from ial.contractors.expressions.mean_value import MeanValue, repeats
 
 
-class Propagation(Combinator):
+class Propagation(CheckedContractor):
     """All of several constraints, applied in turn until none of them narrows a side by much.
 
     Every box has its own queue. At first all constraints stand in it. Rounds go through the constraints in the order given and apply those
@@ -45,10 +47,7 @@ class Propagation(Combinator):
     """
 
     def __init__(self, *contractors: Member, ratio: float = 0.1, max_rounds: int = 100) -> None:
-        if not 0.0 <= ratio < 1.0:
-            raise ValueError(f"the ratio is {ratio}; give a number from 0 to less than 1")
-        if max_rounds < 1:
-            raise ValueError(f"the number of rounds is {max_rounds}; give at least 1")
+        check_rounds(ratio, max_rounds)
         members = members_of(contractors)
         self.dimension = common_dimension(members)
         self.ratio = ratio

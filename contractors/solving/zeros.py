@@ -91,8 +91,6 @@ def certify(function: Function, boxes: Boxes) -> Certificate:
         If a formula holds an operation without a known derivative.
     ValueError
         If the function has not as many values as variables, or the boxes are of another dimension.
-    RoundingModeError
-        If the processor does not round to nearest.
 
     References
     ----------
@@ -150,8 +148,6 @@ def zeros(function: Function, box: Boxes, precision: npt.ArrayLike, **options: A
         If a formula holds an operation without a known derivative.
     ValueError
         If the function has not as many values as variables, there is not one box, or an option cannot be used.
-    RoundingModeError
-        If the processor does not round to nearest.
 
     References
     ----------

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from ial.lidar.configuration.config import Precision as Precision
     from ial.lidar.configuration.config_record import config_record as config_record
     from ial.lidar.estimate import Estimate as Estimate
-    from ial.lidar.estimate import Hypothesis as Hypothesis
     from ial.lidar.global_check import GlobalCheck as GlobalCheck
+    from ial.lidar.hypothesis import Hypothesis as Hypothesis
     from ial.lidar.localizer import Localizer as Localizer
     from ial.lidar.pose_set import PoseSet as PoseSet
     from ial.lidar.run import localize as localize
@@ -30,7 +30,8 @@ else:
             "atlas": ("Atlas", "Whereabouts"),
             "configuration.config": ("Bounds", "FreeSpace", "LocalizedSize", "LocalizerConfig", "Precision"),
             "configuration.config_record": ("config_record",),
-            "estimate": ("Estimate", "Hypothesis"),
+            "estimate": ("Estimate",),
+            "hypothesis": ("Hypothesis",),
             "global_check": ("GlobalCheck",),
             "localizer": ("Localizer",),
             "pose_set": ("PoseSet",),

@@ -1,28 +1,28 @@
 """`Atlas`: several maps at once, to find out in which building, or on which floor, the robot is."""
 
-import time
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from ial.contractors.boxes import Boxes
 from ial.datasets.motion import Motion
 from ial.datasets.scan import LaserScan
 from ial.errors import ConfigError
 from ial.lidar.configuration.config import LocalizerConfig
-from ial.lidar.estimate import Hypothesis, Status, find_hypotheses, judge
+from ial.lidar.estimate import Status, judge
 from ial.lidar.evidence.beams import Beams, scan_beams
+from ial.lidar.hypothesis import Hypothesis, find_hypotheses
 from ial.lidar.model import LidarModel
-from ial.lidar.pose_set import PoseSet, unite
+from ial.lidar.pose_set import PoseSet
 from ial.lidar.pose_sets import PoseSets
 from ial.lidar.search.outlier_budget import within_budget
 from ial.lidar.vanishing import is_vanishing
 from ial.maps.grids.occupancy_grid import OccupancyGrid
-from ial.membership import Model, SetMembershipFilter
+from ial.membership.set_membership_filter import Rejection, SetMembershipFilter
+from ial.membership.worlds import Worlds
 from ial.pose import Pose
 
 
-class AtlasModel(Model[PoseSets, Motion | None, Beams]):
-    """Sets of poses, one for each map: together they are one set, which is empty only if all of them are.
+class AtlasModel(Worlds[PoseSet, Motion | None, Beams]):
+    """Sets of poses, one for each map, which a scan cuts at one number of bad beams.
 
     Parameters
     ----------
@@ -31,48 +31,34 @@ class AtlasModel(Model[PoseSets, Motion | None, Beams]):
     """
 
     def __init__(self, models: Mapping[str, LidarModel]) -> None:
-        self.models = dict(models)
-        self._universe = PoseSets({name: model.universe() for name, model in self.models.items()})
-        self._recovery = next(iter(self.models.values())).config.recovery
+        super().__init__(models)
+        self._maps = dict(models)
 
-    def universe(self) -> PoseSets:
-        """Return every pose in every map."""
-        return self._universe
+    def step(self, states: dict[str, PoseSet], motion: Motion | None, reading: Beams) -> dict[str, PoseSet]:
+        """Return what a scan leaves of the moved poses."""
+        return self.contract(self.predict(states, motion), reading)
 
-    def predict(self, states: PoseSets, motion: Motion | None) -> PoseSets:
-        """Return the moved poses; no motion leads from one map into another."""
-        return PoseSets({name: model.predict(states.by_map[name], motion) for name, model in self.models.items()})
+    def anew(self, reading: Beams) -> dict[str, PoseSet]:
+        """Return what a scan leaves of all poses in all maps."""
+        return self.contract(self.universe(), reading)
 
-    def contract(self, states: PoseSets, reading: Beams) -> PoseSets:
+    def contract(self, states: dict[str, PoseSet], reading: Beams) -> dict[str, PoseSet]:
         """Return the poses that a scan allows, with as many bad beams in every map as the best of them needs."""
         if not reading.informative:
             return states
-        return within_budget(reading, states, lambda most: self._contracted(states, most))
+        return within_budget(reading, PoseSets(states), lambda most: self._contracted(states, most)).by_map
 
-    def _contracted(self, states: PoseSets, reading: Beams) -> PoseSets:
-        return PoseSets({name: model.contract(states.by_map[name], reading) for name, model in self.models.items()})
+    def _contracted(self, states: dict[str, PoseSet], reading: Beams) -> PoseSets:
+        """Contract map by map, each in an equal part of the time that is left."""
+        found = {}
+        for waiting, (name, model) in zip(range(len(self._maps), 0, -1), self._maps.items(), strict=True):
+            found[name] = model.contract(states[name], replace(reading, deadline=reading.deadline.part(1.0 / waiting)))
+        return PoseSets(found)
 
-    def refine(self, states: PoseSets, reading: Beams) -> PoseSets:
-        """Return what a scan has left in each map, as `LidarModel` refines it."""
-        return PoseSets({name: model.refine(states.by_map[name], reading) for name, model in self.models.items()})
-
-    def empty(self, states: PoseSets) -> bool:
-        """Return whether no pose is left in any map."""
-        return not len(states)
-
-    def recover(self, states: PoseSets, motion: Motion | None, reading: Beams) -> PoseSets:
-        """Return what to go on with after a scan that fits nowhere in any prediction: every map is searched, as `LidarModel` does."""
-        predicted = self.predict(states, motion)
-        searched = motion is None and states is self._universe
-        found = PoseSets(dict.fromkeys(self.models, PoseSet(Boxes.none(3), outliers=reading.outliers)))
-        if not searched:
-            found = self.contract(self._universe, reading)
-            found = PoseSets({name: self.models[name].unrefuted(each, reading) for name, each in found.by_map.items()})
-        if len(found) and self._recovery == "restart":
-            return found
-        united = {name: unite(each, predicted.by_map[name]) for name, each in found.by_map.items()}
-        accepted = found.accepted if len(found) else predicted.accepted
-        return PoseSets({name: replace(each, accepted=accepted) for name, each in united.items()})
+    def unite(self, found: dict[str, PoseSet], predicted: dict[str, PoseSet]) -> dict[str, PoseSet]:
+        """Return the union in each map. Where nothing was found in any, q is compared with that of the prediction hereafter."""
+        accepted = PoseSets(found if len(PoseSets(found)) else predicted).accepted
+        return {name: replace(each, accepted=accepted) for name, each in super().unite(found, predicted).items()}
 
 
 @dataclass(frozen=True)
@@ -95,6 +81,8 @@ class Whereabouts:
         How long it took.
     vanishing
         As in `Estimate`: whether hardly anything is left in all maps together.
+    rejection
+        As in `Estimate`, where the scan fits nowhere in any map.
     """
 
     stamp_ns: int
@@ -105,6 +93,7 @@ class Whereabouts:
     outliers_allowed: int
     elapsed_s: float
     vanishing: bool = False
+    rejection: Rejection | None = None
 
     @property
     def possible(self) -> tuple[str, ...]:
@@ -151,12 +140,12 @@ class Atlas:
         self.config = config or LocalizerConfig()
         self.grids = dict(grids)
         self.model = AtlasModel({name: LidarModel(grid, self.config) for name, grid in self.grids.items()})
-        self._filter = SetMembershipFilter(self.model, self.model.recover)
+        self._filter = SetMembershipFilter(self.model, self.config.recovery)
 
     @property
     def poses(self) -> dict[str, PoseSet]:
         """The present set of poses of each map, in the grid's frame."""
-        return self._filter.states.by_map
+        return self._filter.states
 
     def update(self, motion: Motion | None, scan: LaserScan) -> Whereabouts:
         """Take the motion since the last scan and a scan; return all poses that everything so far allows.
@@ -168,12 +157,9 @@ class Atlas:
         scan
             The scan.
         """
-        begun = time.perf_counter()
-        for model in self.model.models.values():
-            model.start_clock()
         beams = scan_beams(scan, self.config)
         rejection = self._filter.update(motion, beams)
-        known = self._filter.remaining
+        known = PoseSets(self._filter.remaining)
         lost, counted = rejection is not None, beams.informative
         hypotheses = {
             name: find_hypotheses(poses, self.grids[name], counted=counted, rejected=lost) for name, poses in known.by_map.items()
@@ -188,6 +174,7 @@ class Atlas:
             map=place,
             pose=None if place is None else hypotheses[place][0].centre,
             outliers_allowed=known.outliers if beams.informative else beams.outliers,
-            elapsed_s=time.perf_counter() - begun,
+            elapsed_s=beams.deadline.elapsed_s,
             vanishing=len(known) > 0 and is_vanishing(known.by_map.values(), beams),
+            rejection=rejection,
         )

@@ -6,8 +6,8 @@ import numpy as np
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.paving.clusters import cluster
-from ial.lidar.estimate import Hypothesis, find_hypotheses
 from ial.lidar.evidence.beams import Beams
+from ial.lidar.hypothesis import Hypothesis, find_hypotheses
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet
 

@@ -7,15 +7,16 @@ from ial.contractors.boxes import Boxes
 from ial.datasets.motion import Motion
 from ial.datasets.scan import LaserScan
 from ial.lidar.configuration.config import Bounds, LocalizerConfig, Outliers
-from ial.lidar.estimate import Estimate, find_hypotheses, judge, radius
+from ial.lidar.estimate import Estimate, judge, radius
 from ial.lidar.evidence.beams import Beams, scan_beams
 from ial.lidar.global_check import GlobalCheck, check_everywhere
+from ial.lidar.hypothesis import find_hypotheses
 from ial.lidar.images import are_images
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet
 from ial.lidar.vanishing import is_vanishing
 from ial.maps.grids.occupancy_grid import OccupancyGrid
-from ial.membership import SetMembershipFilter
+from ial.membership.set_membership_filter import SetMembershipFilter
 from ial.pose import Pose
 
 
@@ -84,7 +85,7 @@ class Localizer:
         """Forget everything but the start."""
         self._updates = 0
         self._symmetries = self._start_symmetries
-        self._filter = SetMembershipFilter(self.model, self.model.recover, self._start)
+        self._filter = SetMembershipFilter(self.model, self.config.recovery, self._start)
 
     def resume(self, poses: PoseSet, *, same_start: bool = False) -> None:
         """Go on from a set of poses, in the grid's frame.
@@ -103,7 +104,7 @@ class Localizer:
             If a box is empty, or a bound is NaN or infinite; an interval of headings of a turn or more is the full circle.
         """
         self._symmetries = self._start_symmetries if same_start else ()
-        self._filter = SetMembershipFilter(self.model, self.model.recover, poses.checked())
+        self._filter = SetMembershipFilter(self.model, self.config.recovery, poses.checked())
 
     @property
     def start(self) -> PoseSet:
@@ -117,7 +118,7 @@ class Localizer:
 
     def locate(self, scan: LaserScan) -> Estimate:
         """Return the static answer: all poses that one scan alone allows. What was learned from other scans is neither used nor changed."""
-        return self._estimate(SetMembershipFilter(self.model, self.model.recover, self._start), self._start_symmetries, None, scan)
+        return self._estimate(SetMembershipFilter(self.model, self.config.recovery, self._start), self._start_symmetries, None, scan)
 
     def update(self, motion: Motion | None, scan: LaserScan) -> Estimate:
         """Take the motion since the last scan and a scan; return all poses that everything so far allows.
@@ -149,8 +150,6 @@ class Localizer:
         motion: Motion | None,
         scan: LaserScan,
     ) -> Estimate:
-        begun = time.perf_counter()
-        self.model.start_clock()
         beams = scan_beams(scan, self.config)
         rejection = tracker.update(motion, beams)
         poses = tracker.remaining
@@ -175,5 +174,6 @@ class Localizer:
             uninformative=not beams.informative,
             limited=poses.limited,
             vanishing=len(poses) > 0 and is_vanishing([poses], beams),
-            elapsed_s=time.perf_counter() - begun,
+            elapsed_s=beams.deadline.elapsed_s,
+            rejection=rejection,
         )

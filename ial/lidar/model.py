@@ -26,7 +26,7 @@ from ial.lidar.search.pose_contractor import PoseContractor
 from ial.lidar.search.prediction import in_rows, move
 from ial.maps.grids.occupancy_grid import FREE, UNKNOWN, OccupancyGrid, check_usable
 from ial.maps.grids.symmetry import symmetries
-from ial.membership import Model
+from ial.membership.model import ContractingModel
 from ial.pose import Pose
 
 _COARSE = 2.0
@@ -35,13 +35,12 @@ _COARSE = 2.0
 _CHUNK = 1 << 12  # bitmaps that are tried at a time, 2 KB each
 _BATCH = 1 << 14  # larger ones sweep more of a map's table than the caches hold: a third slower on 400 × 400 m
 _LAID_OUT_CELLS = 1 << 17  # above, a set is laid out coarser, and refined by the scan
-_SEARCHING = 0.5  # the share of a scan's time that searches may take; laying out the set and telling its hypotheses apart takes the rest
 _CELLS_PER_S = 2.5e5  # that are laid out where time is limited, for each second of it
 _REFINED = 1 << 10  # boxes of a set
 _FIRST_BITMAPS = 16  # that are tried while it is not known how long one takes
 
 
-class LidarModel(Model[PoseSet, Motion | None, Beams]):
+class LidarModel(ContractingModel[PoseSet, Motion | None, Beams]):
     """Sets of poses, moved by odometry and contracted by scans.
 
     Parameters
@@ -78,12 +77,6 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         self._universe = PoseSet(self.sections.universe)
         most = _LAID_OUT_CELLS if config.max_seconds is None else max(64, int(_CELLS_PER_S * config.max_seconds))
         self._affordable = min(most, _LAID_OUT_CELLS, config.max_boxes)
-        self.start_clock()
-
-    def start_clock(self) -> None:
-        """Let the time begin that one scan may take; what is searched for from now on ends with it."""
-        most = self.config.max_seconds
-        self._deadline = Deadline(None if most is None else _SEARCHING * most)
 
     def universe(self) -> PoseSet:
         """Return every pose in the map."""
@@ -176,19 +169,18 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         if not (boxes.width() > coarse).any():
             return self._tried(tables, self.lattice.bitmaps(boxes), boxes, reading)
         contractor = PoseContractor(reading, tables.occupied, tables.domain)
-        left = self._deadline.left_s
+        left = reading.deadline.left_s
         # What the clock leaves half done is to be equally coarse everywhere: the next scan goes on from there.
         order: Order = "depth" if left is None else "breadth"
         paving = pave(contractor, boxes, coarse, order=order, max_boxes=max(max_boxes, 1), max_seconds=left, batch=_BATCH)
         if paving.limited:
             # A search that was stopped leaves large boxes: finer cells than it had boxes would say no more.
-            return PoseSet(paving.boxes, limited=paving.limited, nodes=paving.nodes)
-        found = self._tried(tables, self.lattice.bitmaps(paving.boxes), paving.boxes, reading)
-        return replace(found, nodes=paving.nodes + found.nodes)
+            return PoseSet(paving.boxes, limited=paving.limited)
+        return self._tried(tables, self.lattice.bitmaps(paving.boxes), paving.boxes, reading)
 
     def _tried(self, tables: MapTables, bitmaps: CellBitmaps, boxes: Boxes, reading: Beams) -> PoseSet:
         """Return the cells that may hold a consistent pose; where they are too many, or the time is up, the boxes, marked."""
-        deadline = Deadline(self._deadline.left_s, _FIRST_BITMAPS)
+        deadline = Deadline(reading.deadline.left_s, _FIRST_BITMAPS)
         found, counts, total = [Boxes.none(3)], [np.empty(0, dtype=np.int16)], 0
         start = 0
         while start < len(bitmaps.keys):
@@ -206,7 +198,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
             counts.append(bad)
             deadline.worked(portion)
             start += portion
-        return PoseSet(Boxes.concatenate(found), nodes=len(bitmaps), bad=np.concatenate(counts), outliers=reading.outliers)
+        return PoseSet(Boxes.concatenate(found), bad=np.concatenate(counts), outliers=reading.outliers)
 
     def _coarsened(self, found: PoseSet, reading: Beams) -> PoseSet:
         """Return what a search has found; if a limit has stopped it, as not too many coarse cells that cover it."""
@@ -215,7 +207,7 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         boxes = found.boxes
         most = min(2 * len(boxes), self._affordable if found.limited == "time" else self.config.max_boxes)
         cells = self.lattice.cover(boxes, most, boxes.volume())
-        return PoseSet(cells, limited=found.limited, nodes=found.nodes, outliers=reading.outliers)
+        return PoseSet(cells, limited=found.limited, outliers=reading.outliers)
 
     def _looked_along(
         self, tables: MapTables, cells: Boxes, bad: npt.NDArray[np.int16], reading: Beams
@@ -241,10 +233,6 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         whole = mend(poses.boxes, self.lattice, cut, kept, left.clusters)
         return left if whole is kept else replace(poses, boxes=cut)[whole]
 
-    def unrefuted(self, poses: PoseSet, reading: Beams) -> PoseSet:
-        """Return what a scan has left; none of it where `refine` proves that no pose in it is consistent."""
-        return poses if len(self.refine(poses, reading)) else poses.none()
-
     def symmetries(self) -> tuple[Pose, ...]:
         """Return the rotations of the grid's frame after which no scan can tell the difference."""
         return symmetries(self.grid, self._allowed)
@@ -254,22 +242,14 @@ class LidarModel(Model[PoseSet, Motion | None, Beams]):
         at = Boxes.of([(pose.x, pose.x), (pose.y, pose.y)])
         return any(bool(self.sections[key].domain.meet(part)[0]) for key, _, part in self.sections.parts(at))
 
+    def unite(self, found: PoseSet, predicted: PoseSet) -> PoseSet:
+        """Return poses that a scan allows and, as unconfirmed ones, poses of which the odometry alone is known."""
+        return unite(found, predicted)
+
+    def exhausted(self, states: PoseSet, motion: Motion | None) -> bool:
+        """Return whether a step from here searches the whole map."""
+        return motion is None and states is self._universe
+
     def empty(self, states: PoseSet) -> bool:
         """Return whether no pose is left."""
         return not len(states)
-
-    def recover(self, states: PoseSet, motion: Motion | None, reading: Beams) -> PoseSet:
-        """Return what to go on with after a scan that fits nowhere in the prediction.
-
-        The scan is searched over the whole map. With the policy `union` the uncontracted prediction is carried on beside what is found, so
-        that the truth is kept whichever of the last motion and the last scan broke its bound; `restart` drops it. If nothing is found
-        anywhere, the prediction alone is carried on.
-        """
-        predicted = self.predict(states, motion)
-        searched = motion is None and states is self._universe  # the step itself has searched the whole map in vain
-        found = PoseSet(Boxes.none(3), outliers=reading.outliers)
-        if not searched:
-            found = self.unrefuted(self.contract(self._universe, reading), reading)
-        if len(found) and self.config.recovery == "restart":
-            return found
-        return unite(found, predicted)

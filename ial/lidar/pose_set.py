@@ -27,8 +27,6 @@ class PoseSet:
         Which boxes are a prediction that was carried on although a scan rejected it, bool of shape (n,).
     limited
         Which limit stopped the last search early, "" if none.
-    nodes
-        How many boxes the last search contracted.
     bad
         How many beams of the last scan are bad at least, wherever in a box the robot is; int16 of shape (n,), 0 where it is not known.
     outliers
@@ -41,7 +39,6 @@ class PoseSet:
     boxes: Boxes
     unconfirmed: npt.NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
     limited: Limit = ""
-    nodes: int = 0
     bad: npt.NDArray[np.int16] = field(default_factory=lambda: np.empty(0, dtype=np.int16))
     outliers: int = 0
     accepted: int | None = None
@@ -59,10 +56,6 @@ class PoseSet:
     def clusters(self) -> Clusters:
         """The connected components of the boxes."""
         return cluster(self.boxes, circular=(2,))
-
-    def none(self) -> "PoseSet":
-        """Return the set without all of its boxes."""
-        return self[np.zeros(len(self), dtype=np.bool_)]
 
     def __getitem__(self, rows: npt.NDArray[np.bool_]) -> "PoseSet":
         """Return the set of the boxes that a mask chooses."""
@@ -112,17 +105,15 @@ def _names(boxes: Boxes) -> npt.NDArray[np.void]:
     return np.ascontiguousarray(bounds).view(f"V{bounds.itemsize * bounds.shape[1]}").reshape(-1)
 
 
-def unite(confirmed: PoseSet, unconfirmed: PoseSet) -> PoseSet:
-    """Return the union of poses that a scan allows, as its search has left them, and poses that are only predicted."""
-    flags = np.concatenate([np.zeros(len(confirmed), dtype=np.bool_), np.ones(len(unconfirmed), dtype=np.bool_)])
+def unite(found: PoseSet, predicted: PoseSet) -> PoseSet:
+    """Return the union of poses that a scan allows, as its search has left them, and poses that are only predicted: unconfirmed ones."""
     return PoseSet(
-        Boxes.concatenate([confirmed.boxes, unconfirmed.boxes]),
-        flags,
-        confirmed.limited or unconfirmed.limited,
-        confirmed.nodes + unconfirmed.nodes,
-        np.concatenate([confirmed.bad, unconfirmed.bad]),
-        confirmed.outliers,
-        confirmed.accepted if len(confirmed) else unconfirmed.accepted,
+        Boxes.concatenate([found.boxes, predicted.boxes]),
+        np.concatenate([found.unconfirmed, np.ones(len(predicted), dtype=np.bool_)]),
+        found.limited or predicted.limited,
+        np.concatenate([found.bad, predicted.bad]),
+        found.outliers,
+        found.accepted if len(found) else predicted.accepted,
     )
 
 
@@ -131,7 +122,6 @@ def join(parts: Sequence[PoseSet], outliers: int) -> PoseSet:
     return PoseSet(
         Boxes.concatenate([Boxes.none(3), *(each.boxes for each in parts)]),
         limited=next((each.limited for each in parts if each.limited), ""),
-        nodes=sum(each.nodes for each in parts),
         bad=np.concatenate([np.empty(0, dtype=np.int16), *(each.bad for each in parts)]),
         outliers=outliers,
     )

@@ -6,19 +6,20 @@ Boxes (x, y) are in the grid frame, in metres; cells are closed squares.
 import numpy as np
 
 from ial.contractors import threads
-from ial.contractors.boxes import Boxes
-from ial.contractors.contractor import Contractor, require_dimension
+from ial.contractors.boxes import Boxes, FloatArray
 from ial.contractors.intervals.sets import hull
 from ial.contractors.kernels import kernel
+from ial.contractors.row_contractor import RowContractor
 from ial.maps.grids.cell_index import CellIndex, contract, edge_above, edge_below
 
 
 @kernel
-def _contract_rows(start, stop, table, inverse_resolution, resolution, lower, upper, new_lower, new_upper):  # type: ignore[no-untyped-def]
+def _contract_rows(start, stop, table, inverse_resolution, resolution, lower, upper):  # type: ignore[no-untyped-def]
+    """Narrow rows of (x, y) in place, to the hull of their part in cells: the tightest in doubles."""
     for i in range(start, stop):
         xl, xu, yl, yu = contract(table, inverse_resolution, resolution, lower[i, 0], upper[i, 0], lower[i, 1], upper[i, 1])
-        new_lower[i, 0], new_lower[i, 1] = xl, yl
-        new_upper[i, 0], new_upper[i, 1] = xu, yu
+        lower[i, 0], lower[i, 1] = xl, yl
+        upper[i, 0], upper[i, 1] = xu, yu
 
 
 @kernel
@@ -38,8 +39,8 @@ def _widen_beyond(start, stop, axis, cells, resolution, lower, upper, new_lower,
             new_lower[i, across], new_upper[i, across] = lower[i, across], upper[i, across]
 
 
-class CellContractor(Contractor):
-    """The contractor of "this point lies in a cell of the set": boxes (x, y) shrink to the hull of their part in cells.
+class CellContractor(RowContractor):
+    """The contractor of "this point lies in a cell of the set": boxes (x, y) shrink to the hull of their part in cells, tight in doubles.
 
     ``~CellContractor(index)`` is the contractor of the points in other cells or outside the grid, and ``Separator.of`` gives both: for the
     walls of a map, ``Separator.of(CellContractor(CellIndex(grid.mask(OCCUPIED), grid.resolution)))``. An image is such a mask with its
@@ -62,29 +63,15 @@ class CellContractor(Contractor):
         """Return the contractor of the points outside of the cells, or on their border."""
         return OutsideCells(self._index)
 
-    def contract(self, boxes: Boxes) -> Boxes:
-        """Return the narrowed boxes, in the grid frame; the hull is the tightest in doubles.
-
-        Raises
-        ------
-        ValueError
-            If the boxes do not have two dimensions.
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
-        require_dimension(self, boxes)
-        lower, upper = np.empty_like(boxes.lower), np.empty_like(boxes.upper)
+    def _narrow_rows(self, lower: FloatArray, upper: FloatArray) -> None:
         index = self._index
-        threads.run(
-            _contract_rows, len(boxes), index.table, index.inverse_resolution, index.resolution, boxes.lower, boxes.upper, lower, upper
-        )
-        return Boxes(lower, upper)
+        threads.run(_contract_rows, len(lower), index.table, index.inverse_resolution, index.resolution, lower, upper)
 
 
-class OutsideCells(Contractor):
+class OutsideCells(RowContractor):
     """The contractor of "this point lies outside of the cells of the set, or on their border".
 
-    A box shrinks to the hull of its part in cells that do not belong to the set and beyond the edges of the grid.
+    A box shrinks to the hull, tight in doubles, of its part in cells that do not belong to the set and beyond the edges of the grid.
 
     Parameters
     ----------
@@ -104,22 +91,12 @@ class OutsideCells(Contractor):
         """Return the contractor of the points in a cell of the set."""
         return CellContractor(self._index)
 
-    def contract(self, boxes: Boxes) -> Boxes:
-        """Return the narrowed boxes, in the grid frame; the hull is the tightest in doubles.
-
-        Raises
-        ------
-        ValueError
-            If the boxes do not have two dimensions.
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
-        require_dimension(self, boxes)
-        lower, upper = np.empty_like(boxes.lower), np.empty_like(boxes.upper)
-        resolution = self._index.resolution
-        threads.run(
-            _contract_rows, len(boxes), self._table, self._index.inverse_resolution, resolution, boxes.lower, boxes.upper, lower, upper
-        )
+    def _narrow(self, boxes: Boxes) -> Boxes:
+        found, resolution = super()._narrow(boxes), self._index.resolution
         for axis, cells in enumerate((self._table.shape[1] - 1, self._table.shape[0] - 1)):
-            threads.run(_widen_beyond, len(boxes), axis, cells, resolution, boxes.lower, boxes.upper, lower, upper)
-        return Boxes(lower, upper)
+            threads.run(_widen_beyond, len(boxes), axis, cells, resolution, boxes.lower, boxes.upper, found.lower, found.upper)
+        return found
+
+    def _narrow_rows(self, lower: FloatArray, upper: FloatArray) -> None:
+        index = self._index
+        threads.run(_contract_rows, len(lower), self._table, index.inverse_resolution, index.resolution, lower, upper)

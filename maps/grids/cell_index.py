@@ -206,13 +206,7 @@ class CellIndex:
         self.inverse_resolution = 1.0 / self.resolution
 
     def meet(self, boxes: Boxes) -> npt.NDArray[np.bool_]:
-        """Return which boxes (x, y) meet a cell of the set, shape (n,); never False where one does.
-
-        Raises
-        ------
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
+        """Return which boxes (x, y) meet a cell of the set, shape (n,); never False where one does."""
         _check_plane(boxes)
         found = np.empty(len(boxes), dtype=np.bool_)
         threads.run(_meet_rows, len(boxes), self.table, self.origin, self.inverse_resolution, boxes.lower, boxes.upper, found)

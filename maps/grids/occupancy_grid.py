@@ -141,23 +141,11 @@ class OccupancyGrid:
         return Pose(float(x), float(y), float(theta))
 
     def boxes_to_map(self, boxes: Boxes) -> Boxes:
-        """Return boxes (x, y, θ) around the same poses, of the grid frame in and of the map frame out, rounded outward.
-
-        Raises
-        ------
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
+        """Return boxes (x, y, θ) around the same poses, of the grid frame in and of the map frame out, rounded outward."""
         return boxes_from_frame(boxes, self.origin)
 
     def boxes_to_grid(self, boxes: Boxes) -> Boxes:
-        """Return boxes (x, y, θ) around the same poses, of the map frame in and of the grid frame out, rounded outward.
-
-        Raises
-        ------
-        RoundingModeError
-            If the processor does not round to nearest.
-        """
+        """Return boxes (x, y, θ) around the same poses, of the map frame in and of the grid frame out, rounded outward."""
         return boxes_into_frame(boxes, self.origin)
 
     def describe(self) -> dict[str, Any]:

@@ -66,8 +66,6 @@ def boxes_from_frame(boxes: Boxes, pose: Pose) -> Boxes:
     ------
     ValueError
         If the boxes have another dimension, or a bound is NaN.
-    RoundingModeError
-        If the processor does not round to nearest.
     """
     return _transformed(_from_frame, boxes, pose)
 

@@ -1,27 +1,9 @@
 import numpy as np
 import pytest
 
-from ial.contractors import (
-    Affine,
-    Boxes,
-    Contractor,
-    Intersection,
-    Union,
-    contractor,
-    fixpoint,
-    from_polar,
-    intersection,
-    lazy,
-    projection,
-    relaxed,
-    to_polar,
-    transform,
-    union,
-    where,
-)
+from ial.contractors import Boxes, Contractor, Intersection, Union
 from ial.contractors.combinators.trivial_sets import EmptySet, WholeSpace
 from ial.contractors.contractor import common_dimension, complement, require_dimension
-from ial.errors import RoundingModeError
 from tests.contractors.shapes import Inside, Outside, Points, random_boxes, same, separator, sides
 
 
@@ -79,8 +61,6 @@ def test_what_cannot_be_combined_is_refused_with_advice() -> None:
         Shape(*LEFT) & 3  # type: ignore[operator]
     with pytest.raises(TypeError, match=r"Separators combine with separators only: Separator\.of"):
         Shape(*LEFT) | separator(*RIGHT)  # type: ignore[operator]
-    with pytest.raises(TypeError, match=r"is not a contractor"):
-        separator(*RIGHT) & Shape(*LEFT)  # type: ignore[operator]
 
 
 def test_dimensions_are_compared() -> None:
@@ -91,18 +71,3 @@ def test_dimensions_are_compared() -> None:
         common_dimension([])
     with pytest.raises(ValueError, match="the boxes have 2 dimensions; Inside needs 1"):
         require_dimension(Inside((0, 1)), PLANE)
-
-
-def test_every_combinator_looks_at_the_rounding_mode(monkeypatch: pytest.MonkeyPatch) -> None:
-    shape, turn = separator(*LEFT), Affine.rigid(0.0, 0.0, 1.0)
-    made = [combine([shape, shape]) for combine in (intersection, union, lazy)]
-    made += [relaxed([shape, shape], 1), fixpoint(shape), transform(shape, turn, turn.inverse), from_polar(shape), to_polar(shape)]
-    made += [where(shape, (0, 2), 3), projection(shape, (0,), [(0, 1)], 0.1)]
-
-    def refuse() -> None:
-        raise RoundingModeError("the processor does not round to nearest")
-
-    monkeypatch.setattr(contractor, "check_rounding", refuse)
-    for combined in [part for both in made for part in (both.inner, both.outer)] + [EmptySet(2), WholeSpace(2)]:
-        with pytest.raises(RoundingModeError):
-            combined.contract(Boxes.none(combined.dimension))

@@ -6,9 +6,9 @@ from functools import cache
 import numpy as np
 import pytest
 
+from ial.contractors.algebra import relaxed
 from ial.contractors.boxes import Boxes
 from ial.contractors.combinators.cylinder import where
-from ial.contractors.combinators.relaxation import relaxed
 from ial.contractors.expressions.function_family import FunctionFamily
 from ial.contractors.expressions.functions import cos, sin
 from ial.contractors.expressions.variables import variables

@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import time
 from dataclasses import replace
 
 import pytest
@@ -14,7 +15,10 @@ from ial.datasets.walk import random_walk
 from ial.errors import ConfigError
 from ial.lidar.atlas import Atlas
 from ial.lidar.configuration.config import Bounds, LocalizerConfig
+from ial.lidar.evidence.beams import Beams
 from ial.lidar.localizer import Localizer
+from ial.lidar.model import LidarModel
+from ial.lidar.pose_set import PoseSet
 from ial.maps.grids.floor_plan import floor_plan
 from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
@@ -97,3 +101,22 @@ def test_the_order_of_the_maps_does_not_matter() -> None:
 def test_an_atlas_needs_a_map() -> None:
     with pytest.raises(ConfigError, match="at least one"):
         Atlas({})
+
+
+def test_every_map_has_its_part_of_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first maps take all the time that they are given; the last one has as much."""
+    now = [100.0]
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    atlas = Atlas(floors(), LocalizerConfig(bounds=BOUNDS, outliers=5, max_seconds=6.0))
+    given = []
+
+    def contract(self: LidarModel, states: PoseSet, reading: Beams) -> PoseSet:
+        left = reading.deadline.left_s
+        assert left is not None
+        given.append(left)
+        now[0] += left
+        return states
+
+    monkeypatch.setattr(LidarModel, "contract", contract)
+    atlas.update(None, next(drive(floors()["floor 0"], 0, 1).recording.readings()).scan)
+    assert given == pytest.approx([1.0, 1.0, 1.0])

@@ -1,4 +1,5 @@
 import math
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -10,9 +11,11 @@ from ial.datasets.scan import LaserScan
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.errors import MapError
 from ial.lidar.configuration.config import Bounds, FreeSpace, LocalizerConfig
-from ial.lidar.evidence.beams import scan_beams
+from ial.lidar.evidence.beams import Beams, scan_beams
 from ial.lidar.global_check import check_everywhere
 from ial.lidar.localizer import Localizer
+from ial.lidar.model import LidarModel
+from ial.lidar.pose_set import PoseSet
 from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 
@@ -116,3 +119,19 @@ def test_a_robot_too_large_for_the_map_is_refused() -> None:
 
     with pytest.raises(MapError, match="fits nowhere"):
         Localizer(two_rooms(), config=replace(CONFIG, robot_radius_m=4.0))
+
+
+def test_a_check_has_time_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The search of the scan takes all the time that it is given."""
+    now, at, given = [100.0], Pose(1.5, 1.4, 0.2), []
+    monkeypatch.setattr(time, "monotonic", lambda: now[0])
+    localizer = Localizer(two_rooms(), config=replace(CONFIG, check_every=1, max_seconds=8.0), initial=around(at))
+
+    def contract(self: LidarModel, states: PoseSet, reading: Beams) -> PoseSet:
+        given.append(reading.deadline.left_s)
+        now[0] += 4.0
+        return states
+
+    monkeypatch.setattr(LidarModel, "contract", contract)
+    assert localizer.update(None, seen_from(two_rooms(), at)).elapsed_s >= 4.0
+    assert given == [4.0, 4.0]

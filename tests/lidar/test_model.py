@@ -7,6 +7,7 @@ import pytest
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.trigonometric import PI_UPPER
+from ial.contractors.paving.limits import Deadline
 from ial.datasets.motion import Motion
 from ial.datasets.scan import LaserScan
 from ial.errors import ConfigError, MapError
@@ -16,6 +17,7 @@ from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet, unite
 from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
 from ial.maps.grids.ray_casting import cast_rays
+from ial.membership import Recovery, Rejection, SetMembershipFilter
 from ial.pose import Pose
 
 CONFIG = LocalizerConfig(bounds=Bounds(0.02, 0.0, 0.01), outliers=0, precision=Precision(0.2, 0.1))
@@ -124,25 +126,29 @@ def test_a_scan_that_can_exclude_nothing_returns_the_very_same_set() -> None:
 
 
 @pytest.mark.parametrize(("recovery", "union"), [("union", True), ("restart", False)])
-def test_recovery_searches_the_whole_map_and_carries_the_prediction_or_not(recovery: str, union: bool) -> None:
-    model = LidarModel(room(), replace(CONFIG, recovery=recovery))
+def test_recovery_searches_the_whole_map_and_carries_the_prediction_or_not(recovery: Recovery, union: bool) -> None:
     before = PoseSet(Boxes.of([(2.6, 2.8), (2.0, 2.4), (-2.0, -1.8)]))
-    still = Motion.identity()
-    after = model.recover(before, still, scan_at(TRUTH))
-    assert after.contains(TRUTH)
-    assert after.contains(Pose(2.7, 2.2, -1.9)) == union
-    assert after.unconfirmed.any() == union
-    assert not after.unconfirmed.all()
-    blind = model.recover(before, still, NOWHERE)
-    assert blind.contains(Pose(2.7, 2.2, -1.9))
-    assert blind.unconfirmed.all()
-    assert len(blind)
+    found = SetMembershipFilter(LidarModel(room(), CONFIG), recovery, before)
+    assert found.update(Motion.identity(), scan_at(TRUTH)) == Rejection(0)
+    assert found.states.contains(TRUTH)
+    assert found.states.contains(Pose(2.7, 2.2, -1.9)) == union
+    assert found.states.unconfirmed.any() == union
+    assert not found.states.unconfirmed.all()
+    blind = SetMembershipFilter(LidarModel(room(), CONFIG), recovery, before)
+    assert blind.update(Motion.identity(), NOWHERE) == Rejection(0)
+    assert blind.states.contains(Pose(2.7, 2.2, -1.9))
+    assert blind.states.unconfirmed.all()
+    assert len(blind.states)
 
 
 def test_recovery_does_not_search_the_whole_map_twice(monkeypatch: pytest.MonkeyPatch) -> None:
     model = LidarModel(room(), CONFIG)
-    monkeypatch.setattr(model, "contract", lambda *_: pytest.fail("searched again"))
-    assert model.recover(model.universe(), None, NOWHERE).unconfirmed.all()
+    contract, calls = model.contract, []
+    monkeypatch.setattr(model, "contract", lambda *given: calls.append(given) or contract(*given))
+    blind = SetMembershipFilter(model)
+    assert blind.update(None, NOWHERE) == Rejection(0)
+    assert len(calls) == 1
+    assert blind.states.unconfirmed.all()
 
 
 @pytest.mark.parametrize(("domain", "unknown"), [("free", False), ("free_or_unknown", True)])
@@ -195,12 +201,11 @@ def test_a_map_that_cannot_serve_is_refused() -> None:
     LidarModel(OccupancyGrid(cells, 0.1), replace(CONFIG, domain="free_or_unknown"))
 
 
-def test_limits_and_counts_are_passed_on() -> None:
+def test_limits_are_passed_on() -> None:
     model = LidarModel(room(), replace(CONFIG, max_boxes=5))
     limited = model.contract(model.universe(), scan_at(TRUTH))
     assert limited.limited == "boxes"
-    assert limited.nodes > 0
     assert len(limited) <= 5
     assert limited.contains(TRUTH)
-    timed = LidarModel(room(), replace(CONFIG, max_seconds=1e-9))
-    assert timed.contract(timed.universe(), scan_at(TRUTH)).limited == "time"
+    timed = LidarModel(room(), CONFIG)
+    assert timed.contract(timed.universe(), replace(scan_at(TRUTH), deadline=Deadline(1e-9))).limited == "time"

@@ -30,15 +30,15 @@ def test_no_boxes_contain_nothing() -> None:
     assert len(PoseSet(Boxes.none(3))) == 0
 
 
-def test_boxes_are_not_carried_unless_it_is_said() -> None:
+def test_boxes_are_confirmed_unless_it_is_said() -> None:
     assert POSES.unconfirmed.tolist() == [False] * 3
 
 
 def test_a_union_remembers_what_is_only_predicted() -> None:
-    confirmed, predicted = PoseSet(POSES.boxes[:2], nodes=5), PoseSet(POSES.boxes[2:], limited="boxes", nodes=7)
+    confirmed, predicted = PoseSet(POSES.boxes[:2]), PoseSet(POSES.boxes[2:], limited="boxes")
     both = unite(confirmed, predicted)
     assert both.unconfirmed.tolist() == [False, False, True]
     assert (both.boxes.lower == POSES.boxes.lower).all()
-    assert (both.limited, both.nodes) == ("boxes", 12)
+    assert both.limited == "boxes"
     assert unite(PoseSet(POSES.boxes, limited="time"), predicted).limited == "time"
     assert unite(PoseSet(Boxes.none(3)), PoseSet(Boxes.none(3))).unconfirmed.dtype == np.bool_

@@ -15,8 +15,8 @@ from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.datasets.walk import random_walk
 from ial.lidar.atlas import Atlas
 from ial.lidar.configuration.config import Bounds, LocalizerConfig, Precision
-from ial.lidar.estimate import find_hypotheses
 from ial.lidar.evidence.beams import scan_beams
+from ial.lidar.hypothesis import find_hypotheses
 from ial.lidar.localizer import Localizer
 from ial.lidar.model import LidarModel
 from ial.lidar.pose_set import PoseSet

@@ -12,7 +12,8 @@ from ial.datasets.recording import Step
 from ial.datasets.sample import sample_grid, sample_recording
 from ial.datasets.scan import LaserScan, Mounting
 from ial.lidar.configuration.config import Bounds
-from ial.lidar.estimate import Estimate, find_hypotheses
+from ial.lidar.estimate import Estimate
+from ial.lidar.hypothesis import find_hypotheses
 from ial.lidar.localizer import Localizer
 from ial.lidar.pose_set import PoseSet
 from ial.lidar.run import localize
@@ -41,9 +42,9 @@ def grid() -> OccupancyGrid:
 def estimate_of(grid: OccupancyGrid) -> Callable[..., tuple[Step, Estimate]]:
     """Return a function that makes the estimate of one scan from rows of boxes in the grid frame."""
 
-    def make(index: int, *rows: Any, status: str = "ambiguous", carried: bool = False, **changes: Any) -> tuple[Step, Estimate]:
+    def make(index: int, *rows: Any, status: str = "ambiguous", unconfirmed: bool = False, **changes: Any) -> tuple[Step, Estimate]:
         boxes = Boxes.of(*rows) if rows else Boxes.none(3)
-        poses = PoseSet(boxes, np.full(len(boxes), carried))
+        poses = PoseSet(boxes, np.full(len(boxes), unconfirmed))
         hypotheses = find_hypotheses(poses, grid)
         stamp = 10**18 + 123456789 * index
         scan = LaserScan(stamp, np.array([1.0, 2.0, np.inf]), -0.5, 0.5, 0.1, 10.0, mounting=Mounting(0.2, 0.1, 0.3, upside_down=True))

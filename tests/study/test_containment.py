@@ -11,7 +11,8 @@ from ial.datasets.recording import Step
 from ial.datasets.scan import LaserScan, Mounting
 from ial.datasets.trajectory import Trajectory
 from ial.lidar.configuration.config import Bounds, LocalizerConfig
-from ial.lidar.estimate import Estimate, find_hypotheses
+from ial.lidar.estimate import Estimate
+from ial.lidar.hypothesis import find_hypotheses
 from ial.lidar.localizer import Localizer
 from ial.lidar.pose_set import PoseSet
 from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid

@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from ial.bouncing.cells.graph import LabelledGraph
 from ial.contractors.kernels import kernel
-from ial.membership import Model
+from ial.membership.model import Model
 
 Vertices = npt.NDArray[np.int32]
 
@@ -33,8 +33,7 @@ def _advance(arcs, held, bump, either, seen, out):  # type: ignore[no-untyped-de
 class BouncingModel(Model[Vertices, None, int]):
     """Sets of vertices of a labelled graph, int32 in any order without repeats. The robot moves by itself, so a motion is always None.
 
-    The observation belongs to the step itself and not to the place where it ends: `step` is therefore not `contract` after `predict`.
-    Not for several threads at once.
+    The observation belongs to the step itself and not to the place where it ends. Not for several threads at once.
 
     Parameters
     ----------
@@ -46,7 +45,7 @@ class BouncingModel(Model[Vertices, None, int]):
     >>> from ial.bouncing import BouncingModel, LabelledGraph
     >>> from ial.membership import SetMembershipFilter
     >>> model = BouncingModel(LabelledGraph.of([1, 2, 0], [0, 0, 1]))
-    >>> filter = SetMembershipFilter(model, model.restart)
+    >>> filter = SetMembershipFilter(model, "restart")
     >>> [filter.update(None, reading) for reading in (0, 1, 1)]
     [None, None, Rejection(step=2)]
     """
@@ -63,10 +62,6 @@ class BouncingModel(Model[Vertices, None, int]):
         """Return where the robot can be after a step of which nothing was observed."""
         return self._advanced(states, 0, True)
 
-    def contract(self, states: Vertices, reading: int) -> Vertices:
-        """Return the same vertices: behind a step, nothing tells any more how it was made."""
-        return states
-
     def step(self, states: Vertices, motion: None, reading: int) -> Vertices:
         """Return where the robot can be after a step with a bump (1) or without one (0)."""
         return self._advanced(states, reading, False)
@@ -75,14 +70,10 @@ class BouncingModel(Model[Vertices, None, int]):
         out = np.empty(len(states), dtype=np.int32)
         return out[: _advance(self.graph.arcs, states, bool(reading), either, self._seen, out)].copy()
 
+    def unite(self, found: Vertices, predicted: Vertices) -> Vertices:
+        """Return the vertices of either set."""
+        return np.union1d(found, predicted)
+
     def empty(self, states: Vertices) -> bool:
-        """Return whether no vertex is left: the trap."""
+        """Return whether no vertex is left: the trap, if the filter absorbs."""
         return len(states) == 0
-
-    def restart(self, states: Vertices, motion: None, reading: int) -> Vertices:
-        """Return every vertex, to begin anew after a rejection: for a robot that may have been carried elsewhere."""
-        return self.universe()
-
-    def absorb(self, states: Vertices, motion: None, reading: int) -> Vertices:
-        """Return no vertex, to stay in the trap after a rejection: the robot is in none of the environments."""
-        return np.empty(0, dtype=np.int32)

@@ -5,7 +5,7 @@ import numpy.typing as npt
 
 from ial.bouncing.cells.set_graph import SetGraph
 from ial.contractors.kernels import kernel
-from ial.membership import Model
+from ial.membership.model import Model
 
 Vertices = npt.NDArray[np.int32]
 
@@ -50,18 +50,14 @@ class NoisyModel(Model[Vertices, None, int]):
         """Return where the robot can be after a step of which nothing was observed."""
         return np.union1d(self.step(states, None, 0), self.step(states, None, 1))
 
-    def contract(self, states: Vertices, reading: int) -> Vertices:
-        """Return the same vertices: behind a step, nothing tells any more how it was made."""
-        return states
-
     def step(self, states: Vertices, motion: None, reading: int) -> Vertices:
         """Return where the robot can be after a step with a bump (1) or without one (0)."""
         return self._out[: _spread(self.graph.starts[reading], self.graph.ends[reading], states, self._seen, self._out)].copy()
 
+    def unite(self, found: Vertices, predicted: Vertices) -> Vertices:
+        """Return the vertices of either set."""
+        return np.union1d(found, predicted)
+
     def empty(self, states: Vertices) -> bool:
         """Return whether no vertex is left."""
         return len(states) == 0
-
-    def restart(self, states: Vertices, motion: None, reading: int) -> Vertices:
-        """Return every vertex in which a robot can start, to begin anew after a rejection."""
-        return self.universe()

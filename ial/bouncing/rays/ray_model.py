@@ -22,7 +22,7 @@ from ial.errors import ConfigError
 from ial.maps.polygons.environment import Environment
 from ial.maps.polygons.ray_shooting import reaches, shoot
 from ial.maps.polygons.walls import FloatArray, Walls
-from ial.membership import Model
+from ial.membership.model import Model
 
 MOST_PIECES = 20_000
 _FULL_DEG = 360
@@ -70,7 +70,7 @@ class RayModel(Model[RaySet, None, int]):
     >>> corners = [(0, 0), (4, 0), (4, 3), (0, 3)]
     >>> room = Environment((Polygon(tuple((Fraction(x), Fraction(y)) for x, y in corners)),))
     >>> model = RayModel(room, Fraction(90), Fraction(1))
-    >>> robot = SetMembershipFilter(model, model.restart)
+    >>> robot = SetMembershipFilter(model, "restart")
     >>> [robot.update(None, reading) for reading in (0, 0, 0, 0, 0, 0)]
     [None, None, None, None, None, Rejection(step=5)]
     """
@@ -123,10 +123,6 @@ class RayModel(Model[RaySet, None, int]):
         """Return where the robot can be after a step of which nothing was observed."""
         return RaySet.joined(self._stepped(states), self._bumped(states))
 
-    def contract(self, states: RaySet, reading: int) -> RaySet:
-        """Return the same set: behind a step, nothing tells any more how it was made."""
-        return states
-
     def step(self, states: RaySet, motion: None, reading: int) -> RaySet:
         """Return where the robot can be after a step with a bump (1) or without one (0)."""
         return self._bumped(states) if reading else self._stepped(states)
@@ -136,13 +132,13 @@ class RayModel(Model[RaySet, None, int]):
         longer = RaySet(states.walls, states.lower, states.upper, (states.steps + steps).astype(np.int32), states.arriving, states.reach)
         return self._bumped(longer)
 
+    def unite(self, found: RaySet, predicted: RaySet) -> RaySet:
+        """Return the pieces of either set."""
+        return RaySet.joined(found, predicted)
+
     def empty(self, states: RaySet) -> bool:
         """Return whether nothing is left: the robot is in no place of the environment."""
         return len(states) == 0
-
-    def restart(self, states: RaySet, motion: None, reading: int) -> RaySet:
-        """Return the universe of all places and headings, to begin anew after a rejection."""
-        return self.universe()
 
     def ways(self, states: RaySet) -> tuple[FloatArray, FloatArray]:
         """Return how far the robot has driven at least, when it bumps now, and at most, for each piece, in metres."""

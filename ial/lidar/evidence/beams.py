@@ -4,7 +4,7 @@ import dataclasses
 import functools
 import math
 import operator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,7 @@ import numpy.typing as npt
 from ial.contractors.angles import wrapped
 from ial.contractors.boxes import Boxes, FloatArray
 from ial.contractors.margins import ABOVE, ROUNDINGS
+from ial.contractors.paving.limits import Deadline
 from ial.datasets.scan import BeamClass, LaserScan, Mounting
 from ial.lidar.configuration.config import Bounds, FreeSpace, LocalizerConfig
 from ial.lidar.configuration.share import Share, number_of
@@ -19,6 +20,8 @@ from ial.lidar.evidence.directions import unit_vectors
 from ial.lidar.evidence.rays import Rays
 from ial.lidar.evidence.sweep import sweep_boxes
 from ial.lidar.margins import ANYWHERE_M
+
+_SEARCHING = 0.5  # the share of a scan's time that searches may take; laying out the set and telling its hypotheses apart takes the rest
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +47,8 @@ class Beams:
         If given, q is chosen at the scan: the smallest that leaves a pose, plus this, and at most `outliers`.
     jump
         If given, and q is chosen at the scan: it exceeds that of the scan before by at most this.
+    deadline
+        Until when poses may be searched for with this evidence; it has begun when the evidence was made.
     """
 
     ends: FloatArray
@@ -54,6 +59,7 @@ class Beams:
     map_error_m: float = 0.0
     margin: int | None = None
     jump: int | None = None
+    deadline: Deadline = field(default_factory=lambda: Deadline(None))
 
     def __post_init__(self) -> None:
         if operator.index(self.outliers) < 0:
@@ -74,11 +80,13 @@ class Beams:
 
 
 def scan_beams(scan: LaserScan, config: LocalizerConfig) -> Beams:
-    """Return the evidence of a scan as a configuration wants it used."""
+    """Return the evidence of a scan as a configuration wants it used; the time that may be spent on the scan begins now."""
+    deadline = Deadline(None if config.max_seconds is None else _SEARCHING * config.max_seconds)
     automatic = config.outliers == "auto"
     outliers = config.max_outliers if config.outliers == "auto" else config.outliers
     scan = scan if config.deskew or scan.sweep is None else dataclasses.replace(scan, sweep=None)
     beams = select_beams(scan, config.bounds.of(scan.frame_id), outliers, config.max_beams, config.free_space)
+    beams = dataclasses.replace(beams, deadline=deadline)
     if not automatic:
         return beams
     margin, jump = (number_of(share, len(beams)) for share in (config.outlier_margin, config.max_jump))

@@ -23,11 +23,6 @@ def unit_vectors(angles: FloatArray) -> FloatArray:
     ----------
     angles
         In radians, float64 of shape (n,).
-
-    Raises
-    ------
-    RoundingModeError
-        If the processor does not round to nearest.
     """
     check_rounding()
     vectors = np.empty((len(angles), 2))

@@ -7,7 +7,8 @@ from typing import Any
 
 from ial.datasets.recording import Step
 from ial.datasets.stamps import parse_stamp
-from ial.lidar.estimate import Estimate, Hypothesis, Status
+from ial.lidar.estimate import Estimate, Status
+from ial.lidar.hypothesis import Hypothesis
 from ial.pose import Pose
 from ial.results.lidar.json_lines import JsonLines, json_line, read_lines
 

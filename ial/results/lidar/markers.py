@@ -9,7 +9,8 @@ import numpy as np
 from ial.contractors.boxes import Boxes, FloatArray
 from ial.datasets.bag_writer import BagWriter
 from ial.datasets.ros_messages import point, pose_message, vector
-from ial.lidar.estimate import Estimate, Hypothesis
+from ial.lidar.estimate import Estimate
+from ial.lidar.hypothesis import Hypothesis
 from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.pose import Pose
 from ial.results.palette import PREDICTION, STATUS_COLOURS, rgb

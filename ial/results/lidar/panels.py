@@ -13,7 +13,7 @@ from matplotlib.patches import Patch
 from ial.contractors.boxes import Boxes
 from ial.datasets.recording import Step
 from ial.datasets.scan import BeamClass
-from ial.lidar.estimate import Hypothesis
+from ial.lidar.hypothesis import Hypothesis
 from ial.maps.grids.cell_index import CellIndex
 from ial.maps.grids.occupancy_grid import OCCUPIED, OccupancyGrid
 from ial.pose import Pose

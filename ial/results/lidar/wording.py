@@ -5,7 +5,7 @@ from decimal import ROUND_CEILING, Decimal
 
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.intervals.trigonometric import PI_LOWER, PI_UPPER
-from ial.lidar.estimate import Hypothesis
+from ial.lidar.hypothesis import Hypothesis
 from ial.pose import Pose
 
 

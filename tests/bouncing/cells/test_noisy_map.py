@@ -41,7 +41,7 @@ def test_a_robot_with_real_geometry_is_never_lost(seed: int) -> None:
     bounds = [ExecutionBounds(), SOME, ExecutionBounds(Fraction(15), count=2), ExecutionBounds(step=Fraction(1, 4))][seed % 4]
     made = NoisyMap(environment, cell, headings, bounds)
     robot = RealRobot(environment, headings.bounce_deg, headings.step * cell, bounds=bounds, seed=seed)
-    running = SetMembershipFilter(NoisyModel(made.graph), NoisyModel(made.graph).restart)
+    running = SetMembershipFilter(NoisyModel(made.graph), "restart")
     for pose in islice(robot.run(), 60):
         assert running.update(None, pose.observation) is None
         if bounds.count == 0 or pose.observation:  # with a wrong clock, the robot is where the set says at bumps
@@ -107,7 +107,7 @@ def test_the_automaton_is_that_of_the_filter_and_its_size_is_limited() -> None:
 
 def test_an_impossible_stream_is_a_rejection() -> None:
     model = NoisyModel(noisy(step=Fraction(3), cell=Fraction(1, 2)).graph)
-    robot = SetMembershipFilter(model, model.restart)
+    robot = SetMembershipFilter(model, "restart")
     found = [robot.update(None, 0) for _ in range(40)]
     first = next(each for each in found if each is not None)
     assert isinstance(first, Rejection)

@@ -29,7 +29,7 @@ def test_a_robot_with_real_geometry_is_never_lost(first: int) -> None:
 def localized(angle: Fraction, bounds: ExecutionBounds, told: ExecutionBounds, seed: int, legs: int = 14) -> tuple[int, int]:
     """At how many bumps a robot was in its set, and how many bumps the set rejected, if it is told these bounds."""
     model = RayModel(L_ROOM, angle, Fraction(1, 8), told, 6000)
-    running = SetMembershipFilter(model, model.restart)
+    running = SetMembershipFilter(model, "restart")
     robot = RealRobot(L_ROOM, Fraction(100), Fraction(1, 8), bounds=bounds, seed=seed)
     held = rejected = 0
     for _ in range(legs):
@@ -156,7 +156,7 @@ def test_a_robot_that_touches_the_end_of_a_wall_may_go_on_along_the_other_wall_o
 
 def test_more_steps_than_fit_are_a_rejection() -> None:
     model = RayModel(ROOM, Fraction(90), Fraction(1), most_pieces=4000)
-    robot = SetMembershipFilter(model, model.restart)
+    robot = SetMembershipFilter(model, "restart")
     rejections = [robot.update(None, 0) for _ in range(6)]
     assert rejections == [None] * 5 + [Rejection(5)], "the diagonal is 5 m"
     assert len(robot.states) == len(model.universe())

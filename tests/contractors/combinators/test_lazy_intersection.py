@@ -2,7 +2,7 @@ import numpy as np
 
 from ial.contractors import Boxes, Contractor, intersection, lazy
 from ial.contractors.combinators.lazy_intersection import LazyIntersection
-from tests.contractors.shapes import Inside, inside, lattice, random_boxes, same, separator
+from tests.contractors.shapes import Inside, inside, lattice, random_boxes, same
 
 RARE, OFTEN, NEVER = Inside((0, 6), (0, 7)), Inside((3, 4), (3, 4)), Inside((-np.inf, np.inf), (-np.inf, np.inf))
 
@@ -66,8 +66,3 @@ def test_the_order_depends_on_the_batches_only() -> None:
 def test_members_of_an_intersection_are_ordered_one_by_one() -> None:
     assert LazyIntersection(intersection([NEVER, RARE]), OFTEN).contractors == (NEVER, RARE, OFTEN)
     assert len(lazy([intersection([NEVER, RARE])]).contract(Boxes.none(2))) == 0
-
-
-def test_of_separators_the_outer_contractors_are_ordered() -> None:
-    made = lazy([separator((0, 6), (0, 7)), separator((3, 4), (3, 4))])
-    assert isinstance(made.outer, LazyIntersection)

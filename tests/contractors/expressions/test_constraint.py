@@ -4,8 +4,8 @@ import mpmath as mp
 import numpy as np
 import pytest
 
+from ial.contractors.algebra import relaxed
 from ial.contractors.boxes import Boxes
-from ial.contractors.combinators.relaxation import relaxed
 from ial.contractors.contractor import complement
 from ial.contractors.expressions.constraint import Complement, Constraint, ConstraintFamily
 from ial.contractors.expressions.functions import OPERATIONS, div, hypot, log, rootn, sqrt

@@ -55,3 +55,13 @@ def test_when_the_time_is_up_there_is_no_portion(clock: Clock) -> None:
     clock.now += 0.2
     assert deadline.portion(5) == 0
     assert Deadline(0.0).portion(5) == 0
+
+
+def test_a_part_ends_after_a_share_of_what_is_left(clock: Clock) -> None:
+    deadline = Deadline(2.0)
+    clock.now += 1.0
+    part = deadline.part(0.25)
+    assert (part.left_s, deadline.left_s) == (0.25, 1.0)
+    clock.now += 5.0
+    assert deadline.part(0.5).left_s == 0.0
+    assert Deadline(None).part(0.5).left_s is None

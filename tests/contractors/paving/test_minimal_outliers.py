@@ -4,8 +4,8 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
+from ial.contractors.algebra import relaxed
 from ial.contractors.boxes import Boxes, FloatArray
-from ial.contractors.combinators.relaxation import relaxed
 from ial.contractors.paving.limits import Deadline
 from ial.contractors.paving.minimal_outliers import minimal_outliers
 from ial.contractors.paving.paver import pave

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ial.contractors.algebra import relaxed
 from ial.contractors.boxes import Boxes
 from ial.contractors.combinators.cylinder import where
-from ial.contractors.combinators.relaxation import relaxed
 from ial.contractors.expressions.function import Function
 from ial.contractors.expressions.function_family import FunctionFamily
 from ial.contractors.expressions.functions import cos, floor, sin, sqrt

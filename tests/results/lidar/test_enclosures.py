@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ial.lidar.estimate import Hypothesis
+from ial.lidar.hypothesis import Hypothesis
 from ial.results.lidar.enclosures import Enclosure, EnclosuresFile, read_enclosures
 
 NUMBER = st.floats(allow_nan=False, allow_infinity=False)

@@ -5,7 +5,7 @@ from fractions import Fraction
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ial.lidar.estimate import Hypothesis
+from ial.lidar.hypothesis import Hypothesis
 from ial.results.lidar.wording import pose_text
 
 MIDDLE = st.floats(-1e3, 1e3)
