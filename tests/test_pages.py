@@ -28,6 +28,11 @@ def prose(text: str) -> Iterator[str]:
             yield re.sub(r"\]\([^)\s]*\)", "]", re.sub(r"!\[[^]]*\]\([^)\s]*\)", "", line))
 
 
+@pytest.mark.parametrize("page", WRITTEN, ids=page_name)
+def test_lines_are_short(page: Path) -> None:
+    assert [line for line in prose(page.read_text(encoding="utf-8")) if len(line) > LONGEST] == []
+
+
 def test_only_code_tables_and_links_may_be_long() -> None:
     long = "x" * 200
     assert list(prose(f"```sh\n{long}\n```\n| {long} |\n[text]({long})\n![{long}](a)\n{long}")) == ["[text]", "", long]
