@@ -1,7 +1,9 @@
 """The pages of the documentation: lines that can be read anywhere, and no file named that is not there."""
 
+import ast
 import re
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -36,6 +38,14 @@ def test_lines_are_short(page: Path) -> None:
 def test_only_code_tables_and_links_may_be_long() -> None:
     long = "x" * 200
     assert list(prose(f"```sh\n{long}\n```\n| {long} |\n[text]({long})\n![{long}](a)\n{long}")) == ["[text]", "", long]
+
+
+@pytest.mark.parametrize("page", WRITTEN, ids=page_name)
+def test_names_that_a_page_imports_are_there(page: Path) -> None:
+    blocks = re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
+    found = [node for block in blocks for node in ast.walk(ast.parse(block)) if isinstance(node, ast.ImportFrom)]
+    names = [(str(node.module), alias.name) for node in found if str(node.module).split(".")[0] == "ial" for alias in node.names]
+    assert [f"{module}.{name}" for module, name in names if not hasattr(import_module(module), name)] == []
 
 
 @pytest.mark.parametrize("page", WRITTEN, ids=page_name)
