@@ -35,7 +35,7 @@ html_theme_options = {"show_toc_level": 2, "use_download_button": False, "use_fu
 
 
 def draw_pictures(app):
-    """Draw the house, and run the examples of the pages, which write the pictures that the pages show."""
+    """Run the examples of the pages, which write the pictures that the pages show."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -43,7 +43,6 @@ def draw_pictures(app):
     examples = runpy.run_path(str(docs / "examples.py"))
     pictures = docs / "_build" / "pictures"
     pictures.mkdir(parents=True, exist_ok=True)
-    runpy.run_path(str(docs / "house.py"))["draw"](pictures / "house.png")
     with contextlib.chdir(pictures):
         for name in examples["PAGES"]:
             for section in examples["sections"](docs / name).values():
@@ -61,6 +60,15 @@ def draw_bounces(page):
             app([*shlex.split(command), "--overwrite"], standalone_mode=False)
 
 
+def draw_house(app):
+    """Draw who imports whom."""
+    docs = Path(__file__).resolve().parent
+    picture = docs / "_build" / "pictures" / "house.png"
+    picture.parent.mkdir(parents=True, exist_ok=True)
+    runpy.run_path(str(docs / "house.py"))["draw"](picture)
+
+
 def setup(app):
     """Draw before anything is read."""
     app.connect("builder-inited", draw_pictures)
+    app.connect("builder-inited", draw_house)
