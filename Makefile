@@ -5,7 +5,7 @@ PYTHON ?= python3
 PYTEST_ARGS ?= --numprocesses auto --dist worksteal
 export PYTHON
 
-.PHONY: help demo test lint docs smoke requirements clean
+.PHONY: help demo test lint docs smoke wheel requirements clean
 .NOTPARALLEL:
 
 help:
@@ -14,6 +14,7 @@ help:
 	@echo "make lint           ruff and mypy"
 	@echo "make docs           the documentation, in docs/_build/html"
 	@echo "make smoke          install as a user does, into an empty environment, and try every command"
+	@echo "make wheel          a wheel for this system and Python that carries compiled kernels, in dist"
 	@echo "make requirements   resolve the pinned versions anew"
 	@echo "make clean          remove the environment and everything that was made"
 
@@ -34,6 +35,9 @@ docs: .venv/.docs
 
 smoke:
 	.ci/smoke
+
+wheel: .venv/.run
+	requirements/wheel
 
 requirements: .venv/.pin
 	requirements/compile

@@ -1,7 +1,8 @@
 """`KernelFolder`: where compiled kernels are kept, one file each.
 
-It is named after the hash of `KernelSources`, so that nothing stale is ever run, and nothing is read that another user could have written.
-It is never in the way: what cannot be read is compiled, and what cannot be written is not kept.
+It is named after the compiler, and its files after what they were compiled from (see `KernelCache`), so that nothing stale is ever run.
+Nothing is read that another user could have written. It is never in the way: what cannot be read is compiled, and what cannot be written is
+not kept.
 """
 
 import contextlib
@@ -15,14 +16,15 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from ial.contractors.kernel_sources import kernel_sources
+from ial.contractors.kernel_compiler import compiler_hash
 from ial.contractors.private_folder import NotPrivateError, is_own, make_private, read_private
 
 logger = logging.getLogger("ial.kernels")
 
 _CHOSEN = "IAL_CACHE_DIR"
 _NAME = re.compile(r"kernels-[0-9a-f]{16}")
-_KEPT = 8  # folders of other sources that stay: checkouts, branches and processors that share a place must not evict each other
+_KEPT = 8  # folders of other compilers that stay: environments and processors that share a place must not evict each other
+_KEPT_FILES = 4096  # in a folder: all kernels eight times, since checkouts and branches that share it must not evict each other either
 _CHECKSUM = hashlib.sha256().digest_size
 
 
@@ -33,6 +35,8 @@ class KernelFolder:
     ----------
     path
         A private folder; None if there is none, then nothing is read and nothing kept.
+    read_only
+        Whether nothing is kept there.
 
     Attributes
     ----------
@@ -40,9 +44,10 @@ class KernelFolder:
         Whether all that was compiled is kept, as far as is known.
     """
 
-    def __init__(self, path: Path | None) -> None:
+    def __init__(self, path: Path | None, read_only: bool = False) -> None:
         self.path = path
-        self.keeps = path is not None
+        self.keeps = path is not None and not read_only
+        self._is_tidy = False
 
     def read(self, name: str) -> bytes | None:
         """Return what was written under a name, None if nothing was.
@@ -62,6 +67,9 @@ class KernelFolder:
             return None
         if kept[:_CHECKSUM] != hashlib.sha256(kept[_CHECKSUM:]).digest():
             raise ValueError(f"damaged: {self.path / name}")
+        if self.keeps:
+            with contextlib.suppress(OSError):  # what can only be read is good enough
+                os.utime(self.path / name, follow_symlinks=False)
         return kept[_CHECKSUM:]
 
     def write(self, name: str, content: bytes) -> None:
@@ -70,6 +78,9 @@ class KernelFolder:
             return
         try:
             _replace(self.path / name, hashlib.sha256(content).digest() + content)
+            if not self._is_tidy:  # once in a process
+                self._is_tidy = True
+                _discard_unused(self.path)
         except OSError as error:
             self.stop(f"{error.strerror}; {_CHOSEN} may name another folder")
 
@@ -128,7 +139,7 @@ def _user_cache() -> Path | None:
 
 
 def _open(place: Path) -> Path:
-    folder = Path(os.path.realpath(place), f"kernels-{kernel_sources().hash}")
+    folder = Path(os.path.realpath(place), f"kernels-{compiler_hash()}")
     is_new = not folder.exists()
     make_private(folder)
     with contextlib.suppress(OSError):  # what can only be read is good enough
@@ -145,3 +156,14 @@ def _discard_old(current: Path) -> None:
     old = sorted((state.st_mtime, path) for state, path in states if state.st_uid == os.geteuid() and path != str(current))
     for _, path in old[:-_KEPT]:
         shutil.rmtree(path, ignore_errors=True)
+
+
+def _discard_unused(folder: Path) -> None:
+    """Remove the files that were not used for longest: kernels of sources that are no more, and what a killed process left half-written."""
+    used = []
+    for entry in os.scandir(folder):
+        with contextlib.suppress(FileNotFoundError):  # another process tidies up as well
+            if entry.is_file(follow_symlinks=False):
+                used.append((entry.stat(follow_symlinks=False).st_mtime_ns, entry.path))
+    for _, path in sorted(used)[:-_KEPT_FILES]:
+        Path(path).unlink(missing_ok=True)

@@ -1,12 +1,13 @@
-"""`KernelSources`: the files that compiled kernels follow from, and the hash that names the folder of what was compiled from them.
+"""`KernelSources`: the files that compiled kernels follow from, and for each kernel a hash of those that it can follow from.
 
-Numba notices a change in the file of a kernel, but not in what that file takes from others: kernels, intrinsics, constants. So a change in
-any file that can end in machine code must change the hash. A kernel sees nothing but the names of its own module, which are made there or
-imported, and what it closes over, which is part of its key in the cache. Hence these files are all of them: every module that imports Numba
-or llvmlite or ial's decorators of kernels, and every module of ial that one of these imports, directly or through others.
+Numba notices a change in the file of a kernel, but not in what that file takes from others: kernels, intrinsics, constants, all of which it
+compiles into the caller. So a change in any file that can end in the machine code of a kernel must change its hash. A kernel sees nothing
+but the names of its own module, which are made there or imported, what it closes over, and the types of its arguments. Hence these files
+are: the module of the kernel, those of the kernels that it closes over and of the classes of its arguments, and every module of ial that
+one of these imports, directly or through others, anywhere in its text.
 
 That is more than needed (the text of an error counts as well), but it needs no judgement. To take all of ial would be simpler still, but
-then a change of the command line would cost a compilation of minutes.
+then a comment in one file would cost a compilation of minutes.
 """
 
 import functools
@@ -14,14 +15,8 @@ import hashlib
 import os
 import re
 import sys
-from collections.abc import Set
+from collections.abc import Iterable, Set
 from pathlib import Path
-
-import llvmlite
-import numba
-import numpy as np
-from numba.core import config
-from numba.core.registry import cpu_target
 
 # Imports are found by their look: syntax trees of all files cost 0.2 s, this 0.01 s, and every start pays it. A test compares the two. A
 # newline to begin with lets the search skip from line to line, three times as fast as one for the beginning of a line.
@@ -40,21 +35,35 @@ class KernelSources:
     Attributes
     ----------
     files
-        The files, by the names of their modules.
-    hash
-        16 digits that follow from all that decides what the kernels become: the text of the files, the versions of Python, NumPy, Numba and
-        llvmlite, Numba's settings, and the processor's name and features.
+        The files, by the names of their modules: every module that imports Numba or llvmlite or ial's decorators of kernels, and every
+        module of ial that one of these imports, directly or through others.
     """
 
     def __init__(self, package: Path) -> None:
         texts = _texts(package)
-        self.files = {module: texts[module][0] for module in sorted(_closure({module: text for module, (_, text) in texts.items()}))}
-        digest = hashlib.sha256(repr(_compiler()).encode())
-        for module in self.files:
-            text = texts[module][1]
-            digest.update(f"\0{module} {len(text)}\0".encode() + text)
-        self.hash = digest.hexdigest()[:16]
+        self._imports: dict[str, set[str]] = {}
+        todo = {module for module, (_, text) in texts.items() if _COMPILES.search(b"\n" + text)}
+        while todo:
+            module = todo.pop()
+            self._imports[module] = imported(texts[module][1], texts.keys())
+            todo |= self._imports[module] - self._imports.keys()
+        self.files = {module: texts[module][0] for module in sorted(self._imports)}
+        self._digests = {module: hashlib.sha256(texts[module][1]).hexdigest() for module in self._imports}
         self._written = self._last_written()
+
+    def closure(self, modules: Iterable[str]) -> set[str]:
+        """Return some of `files` with all that they import, directly or through others, by the names of their modules."""
+        reached: set[str] = set()
+        todo = set(modules)
+        while todo:
+            module = todo.pop()
+            reached.add(module)
+            todo |= self._imports[module] - reached
+        return reached
+
+    def hash(self, modules: Iterable[str]) -> str:
+        """Return 64 digits that follow from the names and texts of the `closure` of some modules."""
+        return _hash(self, frozenset(modules))
 
     def _last_written(self) -> list[tuple[int, int]]:
         states = (file.stat() for file in self.files.values())
@@ -66,6 +75,12 @@ class KernelSources:
             return self._last_written() != self._written
         except OSError:
             return True
+
+
+@functools.cache
+def _hash(sources: KernelSources, modules: frozenset[str]) -> str:
+    digests = [(module, sources._digests[module]) for module in sorted(sources.closure(modules))]
+    return hashlib.sha256(repr(digests).encode()).hexdigest()
 
 
 def _texts(package: Path) -> dict[str, tuple[Path, bytes]]:
@@ -86,23 +101,6 @@ def imported(text: bytes, modules: Set[str]) -> set[str]:
         deeper = [b".".join((source, name)).decode() for name in re.findall(rb"\w+", names)] or [source.decode()]
         found |= {name if name in modules else source.decode() for name in deeper}
     return found & modules
-
-
-def _closure(texts: dict[str, bytes]) -> set[str]:
-    reached = {module for module, text in texts.items() if _COMPILES.search(b"\n" + text)}
-    todo = list(reached)
-    while todo:
-        new = imported(texts[todo.pop()], texts.keys()) - reached
-        reached |= new
-        todo += new
-    return reached
-
-
-def _compiler() -> tuple[object, ...]:
-    """Return what decides, besides the sources, what they are compiled to."""
-    settings = sorted((name, value) for name, value in os.environ.items() if name.startswith("NUMBA_"))
-    processor = cpu_target.target_context.codegen().magic_tuple()  # what LLVM compiles for: the system, the processor, its features
-    return sys.version, np.__version__, numba.__version__, llvmlite.__version__, processor, config.USING_SVML, settings
 
 
 @functools.cache

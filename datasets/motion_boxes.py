@@ -117,7 +117,8 @@ def along(stamps, numbers, parts, moved):  # type: ignore[no-untyped-def]
     for row in range(1, len(stamps) - 1):
         piece(stamps, numbers, row, parts, one)
         compose(moved, one, composed)
-        moved[:] = composed
+        for axis in range(3):
+            moved[axis, 0], moved[axis, 1] = composed[axis, 0], composed[axis, 1]
     for axis in range(3):
         moved[axis, 0], moved[axis, 1] = add(moved[axis, 0], moved[axis, 1], -parts[axis, PER_SCAN], parts[axis, PER_SCAN])
 

@@ -7,7 +7,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-_NEEDED = ("__init__.py", "kernels.py", "kernel_cache.py", "kernel_folder.py", "kernel_sources.py", "private_folder.py")
+_KERNELS = ("kernels", "kernel_cache", "kernel_compiler", "kernel_folder", "kernel_sources", "prebuilt_kernels", "private_folder")
+_NEEDED = ("__init__.py", *(f"{name}.py" for name in _KERNELS))
 _TINY = """
 from numba import types
 

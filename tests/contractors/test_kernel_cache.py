@@ -1,15 +1,17 @@
 import ctypes
 import os
 import random
+import types as types_module
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
-from numba import types
+from numba import typeof, types
 
 from ial.contractors import kernel_cache
+from ial.contractors.kernel_cache import KernelCache
 from ial.contractors.kernel_folder import KernelFolder
 from ial.contractors.kernel_sources import kernel_sources
 from ial.contractors.kernels import callback, kernel
@@ -33,6 +35,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> KernelFolder:
     folder = KernelFolder(tmp_path)
     monkeypatch.setattr(kernel_cache, "kernel_folder", lambda: folder)
     monkeypatch.setitem(kernel_sources().files, __name__, Path(__file__))
+    monkeypatch.setattr(kernel_sources(), "hash", lambda modules: " ".join(sorted(modules)))
     monkeypatch.setattr(kernel_sources(), "have_changed", lambda: False)
     monkeypatch.setattr(kernel_cache, "_announced", False)
     return folder
@@ -186,6 +189,41 @@ def test_code_of_a_function_that_is_not_of_ial_is_not_kept(
     monkeypatch.delitem(kernel_sources().files, __name__)
     assert start() == start() == (9.0, 9.0, 0, [])
     assert list(tmp_path.iterdir()) == []
+
+
+def test_code_that_closes_over_what_is_not_of_ial_is_not_kept(tmp_path: Path) -> None:
+    foreign = types_module.FunctionType(square.__code__, {"__name__": "somebody.elses"}, "square")
+    loop = callback(applied(kernel(foreign)), types.float64, POINTER)
+    result = ctypes.c_double()
+    loop.ctypes(4.0, ctypes.byref(result))
+    assert (result.value, list(tmp_path.iterdir())) == (16.0, [])
+
+
+class Sides(NamedTuple):
+    low: float
+    high: float
+
+
+@kernel
+def low(sides):  # type: ignore[no-untyped-def]
+    return sides.low
+
+
+def test_code_follows_from_the_source_of_a_named_tuple(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+    monkeypatch.setattr(kernel_sources(), "hash", lambda modules: asked.append(modules) or "")
+    monkeypatch.setitem(kernel_sources().files, "ial.of_sides", Path())
+    monkeypatch.setattr(Sides, "__module__", "ial.of_sides")
+    cache = KernelCache(low.py_func)
+    cache._name((typeof((1, (2.0, Sides(1.0, 2.0)))),))
+    assert asked == [{__name__, "ial.of_sides"}]
+
+
+@pytest.mark.parametrize("argument", [Sides(1.0, 2.0), low])
+def test_arguments_whose_source_nothing_watches_are_an_error(monkeypatch: pytest.MonkeyPatch, argument: Any) -> None:
+    monkeypatch.setattr(Sides, "__module__", "somebody.elses")
+    with pytest.raises(TypeError, match="nothing watches the source of"):
+        KernelCache(low.py_func)._name((typeof(argument),))
 
 
 def test_addresses_of_this_process_are_not_kept() -> None:

@@ -30,7 +30,7 @@ def find(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Find:
 
 
 def name() -> str:
-    return f"kernels-{module.kernel_sources().hash}"
+    return f"kernels-{module.compiler_hash()}"
 
 
 def test_what_was_written_is_read(folder: KernelFolder, tmp_path: Path) -> None:
@@ -81,6 +81,14 @@ def test_no_folder_keeps_nothing_and_holds_nothing() -> None:
     folder = KernelFolder(None)
     folder.write("one", b"content")
     assert (folder.keeps, folder.read("one")) == (False, None)
+
+
+def test_a_folder_to_be_read_stays_as_it_is(folder: KernelFolder, tmp_path: Path) -> None:
+    folder.write("one", b"content")
+    os.utime(tmp_path / "one", (1, 1))
+    reading = KernelFolder(tmp_path, read_only=True)
+    reading.write("two", b"")
+    assert (reading.read("one"), reading.read("two"), (tmp_path / "one").stat().st_mtime) == (b"content", None, 1)
 
 
 def test_the_folder_is_in_the_users_cache_where_the_code_is_not_the_users(find: Find, tmp_path: Path) -> None:
@@ -180,6 +188,20 @@ def test_only_the_oldest_folders_of_this_user_are_removed(find: Find, tmp_path: 
     assert left == {*others, *old[4:], "kernels-ffffffffffffffff", "kernels-eeeeeeeeeeeeeeee", name()}
 
 
+def test_only_the_files_that_were_not_used_for_longest_are_removed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "_KEPT_FILES", 4)
+    for index, file in enumerate(("used", "old", "older", "tmp0left", "new", "last")):
+        KernelFolder(tmp_path).write(file, b"content")
+        os.utime(tmp_path / file, (index, index))
+    assert {path.name for path in tmp_path.iterdir()} == {"older", "tmp0left", "new", "last"}
+    os.utime(tmp_path / "older", (1, 1))
+    folder = KernelFolder(tmp_path)
+    assert folder.read("older") == b"content"
+    folder.write("one", b"")
+    folder.write("two", b"")  # a process tidies up once: looking at all files for each would cost more than it saves
+    assert {path.name for path in tmp_path.iterdir()} == {"older", "new", "last", "one", "two"}
+
+
 def test_a_folder_that_can_only_be_read_is_used(find: Find, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("IAL_CACHE_DIR", str(tmp_path / "chosen"))
     found = find()
@@ -187,6 +209,9 @@ def test_a_folder_that_can_only_be_read_is_used(find: Find, tmp_path: Path, monk
     def read_only(*_: object, **__: object) -> None:
         raise OSError(errno.EROFS, os.strerror(errno.EROFS))
 
+    assert found is not None
+    KernelFolder(found).write("one", b"content")
     monkeypatch.setattr(Path, "touch", read_only)
     monkeypatch.setattr(Path, "mkdir", read_only)
-    assert find() == found
+    monkeypatch.setattr(os, "utime", read_only)
+    assert (find(), KernelFolder(found).read("one")) == (found, b"content")

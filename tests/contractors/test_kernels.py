@@ -51,17 +51,33 @@ print(corner(np.full((1, 4), 4.5)))
 
 
 def test_a_change_of_an_intrinsic_is_noticed(copy: PackageCopy) -> None:
-    (copy.package / "lidar").mkdir()
-    corners = copy.package / "lidar" / "corners.py"
-    shutil.copy(ROOT / "ial" / "lidar" / "corners.py", corners)
-    (copy.package / "lidar" / "corner.py").write_text(CORNER)
-    assert copy.use("import ial.lidar.corner")[0] == "4"
+    search = copy.package / "lidar" / "search"
+    search.mkdir(parents=True)
+    indices = search / "rectangle_indices.py"
+    shutil.copy(ROOT / "ial" / "lidar" / "search" / "rectangle_indices.py", indices)
+    (copy.package / "corner.py").write_text(CORNER)
+    assert copy.use("import ial.corner")[0] == "4"
     assert len(copy.kept) == 1
-    text = corners.read_text()
+    text = indices.read_text()
     changed = text.replace("[int(OFFSET)] * 4", "[int(OFFSET) - 3] * 4")
     assert changed != text
-    corners.write_text(changed)
-    assert copy.use("import ial.lidar.corner")[0] == "7"
+    indices.write_text(changed)
+    assert copy.use("import ial.corner")[0] == "7"
+
+
+def test_a_change_compiles_anew_what_follows_from_it_and_nothing_else(copy: PackageCopy) -> None:
+    (copy.package / "other.py").write_text("from ial.contractors.kernels import kernel\n\n\n@kernel\ndef other(x):\n    return x\n")
+    script = f"{USE}\nfrom ial.other import other\nother(1.0)\n"
+    copy.use(script)
+    before = set(copy.kept)
+    with (copy.package / "other.py").open("a") as file:
+        file.write("# a comment\n")
+    assert len(copy.use(script)[1]) == 1
+    (new,) = set(copy.kept) - before
+    assert new.name.startswith("other-")
+    copy.constant.write_text("STEP = 2.00\n")
+    copy.use(script)
+    assert sorted(file.name.split("-")[0] for file in set(copy.kept) - before - {new}) == ["double", "step", "twice"]
 
 
 def test_two_processes_may_compile_at_once(copy: PackageCopy) -> None:

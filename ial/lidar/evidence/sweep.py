@@ -46,7 +46,8 @@ def _sweep(stamps, numbers, parts, boxes):  # type: ignore[no-untyped-def]
             compose(before, part, boxes[beam])
             beam += 1
         compose(before, whole, moved)
-        before[:] = moved
+        for axis in range(3):
+            before[axis, 0], before[axis, 1] = moved[axis, 0], moved[axis, 1]
 
 
 def sweep_boxes(path: OdometryPath, bounds: MotionBounds, beams: int) -> FloatArray:

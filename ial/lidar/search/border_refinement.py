@@ -138,10 +138,12 @@ def _refine(start, stop, layers, cells, outer, wanted, depth, evidence, q, table
         for at in range(edges[layer], edges[layer + 1]):
             row = order[at]
             if wanted[row]:
-                cell[0, :], cell[1, :] = cells[0][row], cells[1][row]
+                for axis in range(3):
+                    cell[0, axis], cell[1, axis] = cells[0][row, axis], cells[1][row, axis]
                 of_layer = (known[layer], bounds[layer], failing)
                 kept[row] = _reach(cell, outer[row], depth, evidence, q, grid, of_layer, stack, reached)
-                cut[0][row], cut[1][row] = reached[0], reached[1]
+                for axis in range(3):
+                    cut[0][row, axis], cut[1][row, axis] = reached[0, axis], reached[1, axis]
 
 
 def refine_border(cells: Boxes, lattice: Lattice, sections: Sections, beams: Beams, depth: int) -> tuple[Boxes, npt.NDArray[np.bool_]]:
