@@ -9,7 +9,7 @@ from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 from ial.lidar.evidence.end_points import relative_bounds
 from ial.lidar.margins import NEAR
-from ial.lidar.search.rectangle_indices import OFFSET, corners
+from ial.lidar.search.rectangle_indices import OFFSET, rectangle_indices
 from ial.lidar.search.scan_contractor import ScanContractor
 from ial.maps.grids.cell_index import BORDER
 
@@ -33,7 +33,7 @@ def _walk(order, lower, upper, ends, directions, errors, q, map_error, resolutio
             continue
         failed = 0
         for i in range(len(ends)):
-            left, below, right, above = corners(
+            left, below, right, above = rectangle_indices(
                 bounds, i, xl + OFFSET, yl + OFFSET, xu + (OFFSET + 1.0), yu + (OFFSET + 1.0), columns, rows
             )
             low, high = np.uint64(below) * stride, np.uint64(above) * stride

@@ -18,9 +18,9 @@ from ial.contractors.threads import available_threads, set_threads
 from ial.datasets.opening import open_recording
 from ial.datasets.recording import steps
 from ial.datasets.scan import LaserScan
-from ial.lidar import pose_contractor
 from ial.lidar.configuration.config import LocalizerConfig
 from ial.lidar.localizer import Localizer
+from ial.lidar.search import pose_contractor
 from ial.lidar.search.scan_contractor import ScanContractor
 from ial.maps.grids.map_file import read_map
 from ial.maps.grids.occupancy_grid import OccupancyGrid

@@ -64,6 +64,15 @@ def draw_bounces(page):
             app([*shlex.split(command), "--overwrite"], standalone_mode=False)
 
 
+def draw_house(app):
+    """Draw who imports whom."""
+    docs = Path(__file__).resolve().parent
+    picture = docs / "_build" / "pictures" / "house.png"
+    picture.parent.mkdir(parents=True, exist_ok=True)
+    runpy.run_path(str(docs / "house.py"))["draw"](picture)
+
+
 def setup(app):
     """Draw before anything is read."""
     app.connect("builder-inited", draw_pictures)
+    app.connect("builder-inited", draw_house)

@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 from typing import Any, NamedTuple
 
-PAGES = ("tutorial.md", "contractors.md", "robots.md")
+PAGES = ("tutorial.md", "contractors.md", "robots.md", "developing/kernels.md", "developing/adding.md")
 
 _HEADING = re.compile(r"^## .*$", re.MULTILINE)
 _BLOCK = re.compile(r"^```python\n(?P<code>.*?)^```\n(?:\n(?:[^\n`][^\n]*\n\n)?```text\n(?P<printed>.*?)^```\n)?", re.MULTILINE | re.DOTALL)

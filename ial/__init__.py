@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ial.errors import IalError as IalError
     from ial.errors import MapError as MapError
     from ial.errors import OutputError as OutputError
+    from ial.errors import PavingError as PavingError
     from ial.errors import RecordingError as RecordingError
     from ial.errors import RoundingModeError as RoundingModeError
     from ial.errors import StreamError as StreamError
@@ -43,6 +44,7 @@ else:
                 "IalError",
                 "MapError",
                 "OutputError",
+                "PavingError",
                 "RecordingError",
                 "RoundingModeError",
                 "StreamError",

@@ -2,6 +2,7 @@
 
 import ast
 import re
+import runpy
 import subprocess
 from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
@@ -11,24 +12,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parent.parent
 
-FLOORS = [
-    {"errors", "whole_file", "lazy", "pose", "keys", "contractors"},
-    {"maps", "datasets"},
-    {"membership"},
-    {"lidar", "bouncing", "compass", "odometer", "active", "particles"},
-    {"results", "study"},
-    {"cli"},
-]
-SIBLINGS = {  # the only imports within a floor
-    "whole_file": {"errors"},
-    "contractors": {"errors", "lazy", "whole_file"},  # contractors know no robot, so no pose
-    "pose": {"errors"},
-    "keys": {"errors"},
-    "datasets": {"maps"},  # the simulator casts rays in a grid
-    "active": {"lidar", "odometer"},
-    "particles": {"lidar"},
-    "study": {"results"},
-}
+HOUSE = runpy.run_path(str(ROOT / "docs" / "house.py"))
+ROOMS = HOUSE["rooms"](HOUSE["PAGE"].read_text(encoding="utf-8"))  # the table of floors of docs/developing/architecture.md
 UPWARD = {  # the only imports that close a circle, and so stand inside a function
     ("ial.contractors.contractor", "ial.contractors.combinators.combination"): "the operators & and |",
 }
@@ -97,13 +82,21 @@ def room(module: str) -> str:
     return module.split(".")[1]
 
 
-def floor(name: str) -> int:
-    (number,) = (number for number, rooms in enumerate(FLOORS) if name in rooms)
-    return number
-
-
 def may_import(importer: str, imported: str) -> bool:
-    return importer == imported or floor(imported) < floor(importer) or imported in SIBLINGS.get(importer, ())
+    return importer == imported or ROOMS[imported].floor < ROOMS[importer].floor or imported in ROOMS[importer].siblings
+
+
+def test_every_room_stands_in_the_table_and_no_other() -> None:
+    assert {name for name, each in ROOMS.items() if not each.planned} == {room(module) for module in MODULES if module != "ial"}
+    assert [name for name, each in ROOMS.items() if each.planned and each.path.exists()] == []
+
+
+def test_the_picture_shows_the_imports() -> None:
+    standing = {name: each for name, each in ROOMS.items() if not each.planned}
+    arrows = {(room(module), room(target)) for module in MODULES if module != "ial" for target in imports(module) if target != "ial"}
+    assert {(name, other) for name, others in HOUSE["arrows"](standing).items() for other in others} == {
+        (name, other) for name, other in arrows if name != other
+    }
 
 
 @pytest.mark.parametrize(
@@ -216,12 +209,6 @@ def test_margins_have_names_and_one_place() -> None:
             found |= {name for node in ast.walk(ast.parse(file.read_text())) if looks_like_a_margin(node)}
     assert found - NUMBERED.keys() == set(), "use a name of margins.py, and say what it covers"
     assert NUMBERED.keys() - found == set()
-
-
-def test_tests_mirror_the_tree() -> None:
-    rooms = {path.name for path in (ROOT / "ial").iterdir() if path.is_dir() and not path.name.startswith("_")}
-    folders = {file.parent.name for file in kept_files() if file.parent.parent == ROOT / "tests" and file.suffix == ".py"}
-    assert folders <= rooms
 
 
 def test_what_every_bound_raises_is_said_once() -> None:

@@ -17,15 +17,6 @@ _KERNELS = (
     "prebuilt_kernels",
     "private_folder",
 )
-    "interpreter",
-    "kernels",
-    "kernel_cache",
-    "kernel_compiler",
-    "kernel_folder",
-    "kernel_sources",
-    "prebuilt_kernels",
-    "private_folder",
-)
 _NEEDED = ("__init__.py", *(f"{name}.py" for name in _KERNELS))
 _TINY = """
 from numba import types

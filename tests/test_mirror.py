@@ -1,0 +1,131 @@
+"""The tests mirror the tree, file by file: ial/lidar/run.py is tested by tests/lidar/test_run.py. What is not so stands here."""
+
+from pathlib import PurePosixPath
+
+from tests.test_house import ROOT, kept_files
+
+ACROSS = {  # tests of no single file, and what they are of
+    "bouncing/test_margins.py": "what is rounded about walls and headings, from the polygon to the set",
+    "cli/test_bad_input.py": "everything that a user can do wrong in the main job",
+    "cli/test_bounce.py": "the commands of the bouncing robot, one after the other",
+    "contractors/test_guard.py": "the rounding mode, at every public name",
+    "datasets/test_laziness.py": "what importing the package costs",
+    "datasets/test_messages.py": "every message of the odometry counts, from the file to the answer",
+    "datasets/test_sample.py": "the embedded recording",
+    "lidar/configuration/test_documented.py": "what the pages say about keys",
+    "lidar/test_as_problem.py": "the localizer beside a general problem of constraints",
+    "lidar/test_auto_outliers.py": "the number of outliers that is chosen, beside runs with that number given",
+    "lidar/test_fuzz_poses.py": "no consistent pose is lost, whatever the robot undergoes",
+    "lidar/test_lidars.py": "several lidars on one robot",
+    "lidar/test_printed_outliers.py": "the number of bad beams that is printed is the one that was used",
+    "lidar/test_scenes.py": "known scenes, from the recording to the estimate",
+    "lidar/test_symmetry.py": "maps that look the same after a rotation",
+    "lidar/test_turns.py": "intervals of headings of any turn, at every entry",
+    "membership/test_robots.py": "every robot through the one filter",
+    "maps/test_package.py": "what importing the package costs",
+    "results/test_bounce_pictures.py": "one filter in every picture",
+    "study/test_independence.py": "measures share no code with what they measure",
+    "test_benches.py": "what the benches import and edit",
+    "test_examples.py": "examples in docstrings",
+    "test_house.py": "the rules of the house",
+    "test_mirror.py": "this one",
+    "test_packaging.py": "what is installed",
+    "test_pages.py": "the pages of the documentation",
+    "test_tutorial.py": "examples in pages",
+}
+
+UNMIRRORED = {  # tests that also stand for other files than their own; a file that gets a test of its own leaves this list
+    "bouncing/automata/test_automaton.py": ["determinization", "nondeterministic", "subset", "verification"],
+    "bouncing/automata/test_partition.py": ["minimal"],
+    "bouncing/cells/test_cell_map.py": ["corner"],
+    "bouncing/cells/test_groups.py": ["graph"],
+    "bouncing/cells/test_headings.py": ["heading_classes"],
+    "bouncing/cells/test_noisy_map.py": ["noisy_model", "set_graph", "../automata/set_automaton", "../execution_bounds"],
+    "bouncing/exports/test_c_source.py": ["c_array", "c_tables", "exported_filter"],
+    "bouncing/exports/test_jflap.py": ["automata_lib", "finite_automaton"],
+    "bouncing/exports/test_archive.py": ["state_places"],
+    "bouncing/filters/test_bounce_filter.py": ["building", "cycle_places", "setting"],
+    "bouncing/automata/test_table.py": ["../filters/bank"],
+    "bouncing/planning/test_angle_search.py": ["information_sets", "phase", "trace_classes"],
+    "bouncing/rays/test_ray_model.py": ["ray_set"],
+    "cli/lidar/test_answer_file.py": ["streaming"],
+    "cli/lidar/test_bounds.py": ["bounds_report"],
+    "cli/lidar/test_where.py": ["where_report"],
+    "cli/shell/test_outputs.py": ["../lidar/job", "out_folder"],
+    "cli/test_bounce.py": ["bounce/build", "bounce/options", "bounce/outcome", "bounce/report", "bounce/run", "bounce/simulate"],
+    "cli/test_main.py": ["entry", "lidar/replay", "shell/options", "shell/outcome", "shell/terminal", "../study/replay"],
+    "contractors/expressions/test_constraint.py": ["../combinators/family"],
+    "contractors/expressions/test_expression.py": ["variables"],
+    "contractors/combinators/test_combination.py": ["rows", "trivial_sets"],
+    "contractors/solving/test_newton.py": ["zeros"],
+    "contractors/solving/test_problem.py": ["conflict", "propagation", "../expressions/function_family"],
+    "contractors/test_boxes.py": ["elementwise"],
+    "datasets/test_carmen.py": ["carmen_line", "reader"],
+    "datasets/test_conversion.py": ["bag_writer", "copied_messages", "order"],
+    "datasets/test_motion.py": ["odometry_path"],
+    "datasets/test_recording.py": ["mark"],
+    "datasets/test_ros.py": ["bag_file", "info", "ros_frames", "ros_messages", "survey"],
+    "datasets/test_sample.py": ["sample/make_sample"],
+    "keys/test_record.py": ["key"],
+    "lidar/search/test_border_refinement.py": ["outer_faces"],
+    "lidar/search/test_cell_counts.py": ["bitmap_counts", "empty_rectangles", "rectangle_indices"],
+    "lidar/search/test_free_space.py": ["bit_columns", "../evidence/rays"],
+    "lidar/search/test_lattice.py": ["cell_bitmaps"],
+    "lidar/search/test_scan_contractor.py": ["narrowing"],
+    "lidar/test_atlas.py": ["pose_sets"],
+    "lidar/test_auto_outliers.py": ["search/outlier_budget"],
+    "lidar/test_turns.py": ["search/pose_contractor"],
+    "lidar/test_checkpoint.py": ["output_end"],
+    "lidar/test_margins.py": ["evidence/directions"],
+    "lidar/test_symmetry.py": ["images", "../maps/grids/symmetry"],
+    "cli/lidar/test_warm.py": ["../../lidar/warming"],
+    "maps/grids/test_map_file.py": ["map_warning"],
+    "maps/polygons/test_direction.py": ["exact_cosine"],
+    "maps/polygons/test_polygon.py": ["ring"],
+    "results/lidar/test_result_folder.py": ["sink"],
+    "membership/test_robots.py": ["lapses", "model", "worlds"],
+    "results/lidar/test_picture.py": ["panels", "../palette"],
+    "results/test_bounce_pictures.py": [
+        "bouncing/automaton_picture",
+        "bouncing/basin_picture",
+        "bouncing/cycle_picture",
+        "bouncing/ground",
+        "bouncing/page",
+    ],
+    "study/test_blocked_rays.py": ["open_strips"],
+    "study/test_bounds_survey.py": ["failures", "motion_fit", "reference", "../results/lidar/failure_picture"],
+    "study/test_good_beams.py": ["obstacles"],
+    "test_packaging.py": ["lazy"],
+}
+
+
+def resolved(folder: PurePosixPath, name: str) -> PurePosixPath:
+    """Return the file of that name, seen from a folder."""
+    while name.startswith("../"):
+        folder, name = folder.parent, name.removeprefix("../")
+    return folder / f"{name}.py"
+
+
+FILES = [PurePosixPath(file.relative_to(ROOT).as_posix()) for file in kept_files() if file.suffix == ".py"]
+TESTS = {file.relative_to("tests") for file in FILES if file.parts[0] == "tests" and file.name.startswith("test_")}
+SOURCES = {
+    file.relative_to("ial") if file.parts[0] == "ial" else file
+    for file in FILES
+    if file.parts[0] in {"ial", "contractors", "maps", "datasets"} and file.name != "__init__.py"
+}
+MIRRORED = {test.with_name(test.name.removeprefix("test_")) for test in TESTS}
+
+
+def test_a_test_mirrors_a_file_or_says_what_it_is_of() -> None:
+    of_none = {str(test) for test in TESTS if test.with_name(test.name.removeprefix("test_")) not in SOURCES}
+    assert of_none - ACROSS.keys() == set(), "name a test after the file that it tests; if it is of several, say in ACROSS what it is of"
+    assert ACROSS.keys() - of_none == set(), "these are gone, or mirror a file: take them out of ACROSS"
+
+
+def test_a_file_has_its_test_or_is_on_the_list() -> None:
+    listed = [str(resolved(PurePosixPath(test).parent, name)) for test, names in UNMIRRORED.items() for name in names]
+    untested = {str(source) for source in SOURCES - MIRRORED}
+    assert untested - set(listed) == set(), "write a test of the same name for these files, or say in UNMIRRORED which test they have"
+    assert set(listed) - untested == set(), "these are gone, or have a test of their own: take them out of UNMIRRORED"
+    assert len(listed) == len(set(listed))
+    assert {test for test in UNMIRRORED if PurePosixPath(test) not in TESTS} == set()
