@@ -38,12 +38,12 @@ def test_a_change_of_a_constant_in_a_file_without_kernels_is_noticed(copy: Packa
 CORNER = """
 import numpy as np
 from ial.contractors.kernels import kernel
-from ial.lidar.search.rectangle_indices import OFFSET, corners
+from ial.lidar.search.rectangle_indices import OFFSET, rectangle_indices
 
 
 @kernel
 def corner(bounds):
-    return corners(bounds, 0, OFFSET, OFFSET, OFFSET, OFFSET, np.int32(9), np.int32(9))[0]
+    return rectangle_indices(bounds, 0, OFFSET, OFFSET, OFFSET, OFFSET, np.int32(9), np.int32(9))[0]
 
 
 print(corner(np.full((1, 4), 4.5)))
