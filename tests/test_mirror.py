@@ -53,7 +53,7 @@ UNMIRRORED = {  # tests that also stand for other files than their own; a file t
     "cli/lidar/test_where.py": ["where_report"],
     "cli/shell/test_outputs.py": ["../lidar/job", "out_folder"],
     "cli/test_bounce.py": ["bounce/build", "bounce/options", "bounce/outcome", "bounce/report", "bounce/run", "bounce/simulate"],
-    "cli/test_main.py": ["entry", "lidar/replay", "shell/options", "shell/outcome", "shell/terminal", "../study/replay"],
+    "cli/test_main.py": ["entry", "shell/options", "shell/outcome", "shell/terminal"],
     "contractors/expressions/test_constraint.py": ["../combinators/family"],
     "contractors/expressions/test_expression.py": ["variables"],
     "contractors/combinators/test_combination.py": ["rows", "trivial_sets"],
@@ -95,7 +95,6 @@ UNMIRRORED = {  # tests that also stand for other files than their own; a file t
     "study/test_blocked_rays.py": ["open_strips"],
     "study/test_bounds_survey.py": ["failures", "motion_fit", "reference", "../results/lidar/failure_picture"],
     "study/test_good_beams.py": ["obstacles"],
-    "test_packaging.py": ["lazy"],
 }
 
 
