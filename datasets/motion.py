@@ -1,8 +1,7 @@
 """`Motion`: an interval of SE(2), and `MotionBounds`, which turn odometry into one."""
 
 import dataclasses
-import math
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -14,7 +13,9 @@ from ial.contractors.rounding import check_rounding
 from ial.datasets import motion_boxes
 from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_path import OdometryPath
-from ial.errors import ConfigError
+from ial.keys.key import key
+from ial.keys.kind import Maybe, Number
+from ial.keys.record import Part, Record
 from ial.pose import Pose
 
 
@@ -83,66 +84,59 @@ class Motion:
         return np.stack([self.lower, self.upper], axis=1)
 
 
+_BOUND = Number(least=0.0)
+_BASE_IS_GONE = (
+    "has become two: per_scan, added once from each scan to the next, and per_message, added for each odometry message between them; "
+    "give the old value as per_scan if it was measured from scan to scan, and as per_message if it is of one message"
+)
+
+
 @dataclass(frozen=True)
-class ErrorBound:
+class ErrorBound(Record):
     """How far a recorded motion may be from the true one, for each message of the odometry and for each scan.
 
     From one message to the next the bound is ``per_message + per_metre · |translation| + per_radian · |rotation| + per_second · seconds``;
     `per_scan` is added once from scan to scan. All in metres for a translation, and in radians for a rotation.
-
-    Parameters
-    ----------
-    per_message
-        Added for each message: what is rounded, or jitters.
-    per_metre
-        Added for each metre travelled.
-    per_radian
-        Added for each radian turned.
-    per_second
-        Added for each second: what happens though the wheels say nothing, and where messages are missing.
-    per_scan
-        Added once for each scan: what does not accumulate, such as a stamp that is late.
-
-    Raises
-    ------
-    ConfigError
-        If a number is negative, infinite or NaN.
     """
 
-    per_message: float = 0.0
-    per_metre: float = 0.0
-    per_radian: float = 0.0
-    per_second: float = 0.0
-    per_scan: float = 0.0
+    gone = {"base": _BASE_IS_GONE}
 
-    def __post_init__(self) -> None:
-        for part in fields(self):
-            value = getattr(self, part.name)
-            if not (math.isfinite(value) and value >= 0.0):
-                raise ConfigError(f"motion bound {part.name} is {value}; give a finite number that is not negative")
+    per_message: float = field(default=0.0, metadata=key(_BOUND, "added for each odometry message: what is rounded, or jitters", "{}"))
+    per_metre: float = field(default=0.0, metadata=key(_BOUND, "added for each metre travelled", "{}/m"))
+    per_radian: float = field(default=0.0, metadata=key(_BOUND, "added for each radian turned", "{}/rad"))
+    per_second: float = field(
+        default=0.0,
+        metadata=key(_BOUND, "added for each second: what happens though the wheels say nothing, and where messages are missing", "{}/s"),
+    )
+    per_scan: float = field(
+        default=0.0,
+        metadata=key(_BOUND, "added once from scan to scan: what does not accumulate, such as a stamp that is late", "{}"),
+    )
 
 
 @dataclass(frozen=True)
-class MotionBounds:
+class MotionBounds(Record):
     """How far the recorded odometry may be from the true motion.
 
     The defaults hold for 98.5 to 100 % of the recorded steps of three robots whose corrected trajectories are known (Intel, Freiburg 079,
     ACES), one of them with poor odometry.
-
-    Parameters
-    ----------
-    translation
-        Bound of dx, and of dy, metres.
-    rotation
-        Bound of dtheta, radians.
-    sideways
-        Bound of dy alone, metres, for a robot whose wheels do not let it drive sideways; that of `translation` by default, as for an
-        omnidirectional drive. It must cover what a turn between two messages does to dy.
     """
 
-    translation: ErrorBound = field(default_factory=lambda: ErrorBound(0.0, 0.05, 0.05, 0.01, 0.15))
-    rotation: ErrorBound = field(default_factory=lambda: ErrorBound(0.0, 0.05, 0.25, 0.01, 0.1))
-    sideways: ErrorBound | None = None
+    translation: ErrorBound = field(
+        default_factory=lambda: ErrorBound(0.0, 0.05, 0.05, 0.01, 0.15), metadata=key(Part(ErrorBound), "bound of dx, and of dy", "m")
+    )
+    rotation: ErrorBound = field(
+        default_factory=lambda: ErrorBound(0.0, 0.05, 0.25, 0.01, 0.1), metadata=key(Part(ErrorBound), "bound of the turn dθ", "rad")
+    )
+    sideways: ErrorBound | None = field(
+        default=None,
+        metadata=key(
+            Maybe(Part(ErrorBound)),
+            "bound of dy alone, for a robot whose wheels do not let it drive sideways; null takes that of `translation`, as for an"
+            " omnidirectional drive; of its keys, those that are left out are 0. It must cover what a turn between two messages does to dy",
+            "m",
+        ),
+    )
 
     @cached_property
     def parts(self) -> npt.NDArray[np.float64]:

@@ -21,6 +21,9 @@ from ial.datasets.recording import Reading
 from ial.datasets.scan import LaserScan, Mounting
 from ial.datasets.trajectory import Trajectory
 from ial.errors import ConfigError
+from ial.keys.key import key
+from ial.keys.kind import Number, Truth, Whole
+from ial.keys.record import Record
 from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.maps.grids.ray_casting import cast_rays
 from ial.pose import Pose
@@ -57,34 +60,21 @@ class Lidar:
 
 
 @dataclass(frozen=True)
-class SensorErrors:
-    """What is wrong with the readings.
+class SensorErrors(Record):
+    """What is wrong with the readings."""
 
-    Parameters
-    ----------
-    range_error_m, bearing_error_rad
-        Bounds of a good beam's errors, which are uniform within them.
-    outliers
-        At most so many beams of each scan are replaced: by shorter, longer or random readings, or by none.
-    adversarial
-        Errors are as large as their bounds allow, and the number of replaced beams is exactly `outliers`.
-
-    Raises
-    ------
-    ConfigError
-        If a bound is negative or not finite.
-    """
-
-    range_error_m: float = 0.02
-    bearing_error_rad: float = 0.002
-    outliers: int = 0
-    adversarial: bool = False
-
-    def __post_init__(self) -> None:
-        for name in ("range_error_m", "bearing_error_rad", "outliers"):
-            value = getattr(self, name)
-            if not (math.isfinite(value) and value >= 0):
-                raise ConfigError(f"{name} is {value}; give a finite number that is not negative")
+    range_error_m: float = field(
+        default=0.02, metadata=key(Number(), "bound of the error of a good beam's range, which is uniform within it", "m")
+    )
+    bearing_error_rad: float = field(default=0.002, metadata=key(Number(), "bound of the error of its bearing", "rad"))
+    outliers: int = field(
+        default=0,
+        metadata=key(Whole(0), "at most so many beams of each scan are replaced: by shorter, longer or random readings, or by none"),
+    )
+    adversarial: bool = field(
+        default=False,
+        metadata=key(Truth(), "errors are as large as their bounds allow, and the number of replaced beams is exactly `outliers`"),
+    )
 
 
 @dataclass(frozen=True, eq=False)

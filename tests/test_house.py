@@ -12,7 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 
 FLOORS = [
-    {"errors", "whole_file", "lazy", "pose", "contractors"},
+    {"errors", "whole_file", "lazy", "pose", "keys", "contractors"},
     {"maps", "datasets"},
     {"membership"},
     {"lidar", "bouncing", "compass", "odometer", "active", "particles"},
@@ -23,6 +23,7 @@ SIBLINGS = {  # the only imports within a floor
     "whole_file": {"errors"},
     "contractors": {"errors", "lazy", "whole_file"},  # contractors know no robot, so no pose
     "pose": {"errors"},
+    "keys": {"errors"},
     "datasets": {"maps"},  # the simulator casts rays in a grid
     "active": {"lidar", "odometer"},
     "particles": {"lidar"},

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from ial.lidar.configuration.config import LocalizerConfig as LocalizerConfig
     from ial.lidar.configuration.config import Precision as Precision
     from ial.lidar.configuration.config_record import config_record as config_record
+    from ial.lidar.configuration.config_record import config_yaml as config_yaml
+    from ial.lidar.configuration.config_record import read_config as read_config
     from ial.lidar.estimate import Estimate as Estimate
     from ial.lidar.global_check import GlobalCheck as GlobalCheck
     from ial.lidar.hypothesis import Hypothesis as Hypothesis
@@ -29,7 +31,7 @@ else:
         {
             "atlas": ("Atlas", "Whereabouts"),
             "configuration.config": ("Bounds", "FreeSpace", "LocalizedSize", "LocalizerConfig", "Precision"),
-            "configuration.config_record": ("config_record",),
+            "configuration.config_record": ("config_record", "config_yaml", "read_config"),
             "estimate": ("Estimate",),
             "hypothesis": ("Hypothesis",),
             "global_check": ("GlobalCheck",),

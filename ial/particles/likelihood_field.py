@@ -1,61 +1,46 @@
 """`LikelihoodField`: how well a point fits the nearest obstacle, for every cell of a map."""
 
 import math
-from dataclasses import dataclass
-from typing import Literal
+from dataclasses import dataclass, field
+from typing import Literal, get_args
 
 import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.kernels import kernel
 from ial.datasets.scan import LaserScan
-from ial.errors import ConfigError
+from ial.keys.key import key
+from ial.keys.kind import Number, Whole, Word
+from ial.keys.record import Record
 from ial.lidar.configuration.config import Bounds
 from ial.lidar.evidence.beams import select_beams
 from ial.maps.grids.occupancy_grid import OCCUPIED, OccupancyGrid
 
+_POSITIVE = Number(above=0.0)
+
+Together = Literal["likelihood_field", "likelihood_field_prob"]
+
 
 @dataclass(frozen=True)
-class BeamModel:
-    """The likelihood of one beam, with the names and the defaults of nav2's AMCL.
+class BeamModel(Record):
+    """The likelihood of one beam, with the names and the defaults of nav2's AMCL."""
 
-    Parameters
-    ----------
-    z_hit, z_rand
-        Weights of the Gaussian around the nearest obstacle and of the uniform part.
-    sigma_hit
-        Standard deviation of the Gaussian, metres.
-    laser_likelihood_max_dist
-        Distances above this, and end points outside the map, count as this one; metres.
-    laser_max_range
-        Range over which the uniform part is spread, metres.
-    max_beams
-        How many beams of a scan are used at most.
-    laser_model_type
-        How beams go together: ``"likelihood_field_prob"`` multiplies their likelihoods, ``"likelihood_field"`` adds the cubes of them to 1,
-        which is nav2's default.
-
-    Raises
-    ------
-    ConfigError
-        If a number is not positive and finite, or there is no such type.
-    """
-
-    z_hit: float = 0.5
-    z_rand: float = 0.5
-    sigma_hit: float = 0.2
-    laser_likelihood_max_dist: float = 2.0
-    laser_max_range: float = 100.0
-    max_beams: int = 60
-    laser_model_type: Literal["likelihood_field", "likelihood_field_prob"] = "likelihood_field_prob"
-
-    def __post_init__(self) -> None:
-        for name in ("z_hit", "z_rand", "sigma_hit", "laser_likelihood_max_dist", "laser_max_range", "max_beams"):
-            value = getattr(self, name)
-            if not (math.isfinite(value) and value > 0):
-                raise ConfigError(f"{name} is {value!r}; give a finite number above 0")
-        if self.laser_model_type not in ("likelihood_field", "likelihood_field_prob"):
-            raise ConfigError(f"laser_model_type is {self.laser_model_type!r}; give 'likelihood_field' or 'likelihood_field_prob'")
+    z_hit: float = field(default=0.5, metadata=key(_POSITIVE, "weight of the Gaussian around the nearest obstacle"))
+    z_rand: float = field(default=0.5, metadata=key(_POSITIVE, "weight of the uniform part"))
+    sigma_hit: float = field(default=0.2, metadata=key(_POSITIVE, "standard deviation of the Gaussian", "m"))
+    laser_likelihood_max_dist: float = field(
+        default=2.0, metadata=key(_POSITIVE, "distances above this, and end points outside the map, count as this one", "m")
+    )
+    laser_max_range: float = field(default=100.0, metadata=key(_POSITIVE, "range over which the uniform part is spread", "m"))
+    max_beams: int = field(default=60, metadata=key(Whole(1), "how many beams of a scan are used at most"))
+    laser_model_type: Together = field(
+        default="likelihood_field_prob",
+        metadata=key(
+            Word(get_args(Together)),
+            'how beams go together: ``"likelihood_field_prob"`` multiplies their likelihoods, ``"likelihood_field"`` adds the cubes of them'
+            " to 1, which is nav2's default",
+        ),
+    )
 
     def likelihood(self, distance_m: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return z_hit · exp(−d² / 2σ²) + z_rand / laser_max_range for distances to the nearest obstacle."""

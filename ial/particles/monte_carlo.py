@@ -11,6 +11,9 @@ from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 from ial.datasets.scan import LaserScan
 from ial.errors import ConfigError
+from ial.keys.key import key
+from ial.keys.kind import Number, Whole
+from ial.keys.record import Part, Record
 from ial.maps.grids.occupancy_grid import FREE, OccupancyGrid, check_usable
 from ial.particles.likelihood_field import BeamModel, LikelihoodField, score_turned
 from ial.particles.odometry_model import OdometryModel
@@ -20,59 +23,46 @@ from ial.pose import Pose, wrap
 _HALVINGS = 10  # of the interval in which the exponent of the likelihoods lies
 
 
+_SHARE = Number(least=0.0, most=1.0)
+_NOISE = Number(least=0.0)
+
+
 @dataclass(frozen=True)
-class MonteCarloConfig:
-    """The configuration of a particle filter.
+class MonteCarloConfig(Record):
+    """The configuration of a particle filter."""
 
-    Parameters
-    ----------
-    particles
-        How many there are.
-    first_particles
-        How many are drawn at the start, where little is known.
-    beam
-        The likelihood of a beam.
-    odometry
-        The noise of the odometry.
-    least_effective
-        Where a scan would leave fewer effective particles than this share, its likelihoods are raised to a smaller power; 0 never does.
-    resample_below
-        Particles are drawn anew when fewer than this share of them are effective; 1 always does.
-    roughening_m, roughening_rad
-        Standard deviation of the noise that keeps drawn particles apart.
-    recovery_alpha_slow, recovery_alpha_fast
-        Rates of the averages of the likelihood whose ratio says how many random particles to mix in; 0 mixes in none, as nav2 does.
-
-    Raises
-    ------
-    ConfigError
-        If a number lies outside its range.
-    """
-
-    particles: int = 5000
-    first_particles: int = 100_000
-    beam: BeamModel = field(default_factory=BeamModel)
-    odometry: OdometryModel = field(default_factory=OdometryModel)
-    least_effective: float = 0.3
-    resample_below: float = 0.5
-    roughening_m: float = 0.04
-    roughening_rad: float = math.radians(2.0)
-    recovery_alpha_slow: float = 0.0
-    recovery_alpha_fast: float = 0.0
+    particles: int = field(default=5000, metadata=key(Whole(1), "how many there are"))
+    first_particles: int = field(default=100_000, metadata=key(Whole(1), "how many are drawn at the start, where little is known"))
+    beam: BeamModel = field(default_factory=BeamModel, metadata=key(Part(BeamModel), "the likelihood of a beam"))
+    odometry: OdometryModel = field(default_factory=OdometryModel, metadata=key(Part(OdometryModel), "the noise of the odometry"))
+    least_effective: float = field(
+        default=0.3,
+        metadata=key(
+            _SHARE,
+            "where a scan would leave fewer effective particles than this share, its likelihoods are raised to a smaller power;"
+            " 0 never does",
+        ),
+    )
+    resample_below: float = field(
+        default=0.5,
+        metadata=key(_SHARE, "particles are drawn anew when fewer than this share of them are effective; 1 always does"),
+    )
+    roughening_m: float = field(
+        default=0.04, metadata=key(_NOISE, "standard deviation of the noise that keeps the places of drawn particles apart", "m")
+    )
+    roughening_rad: float = field(default=math.radians(2.0), metadata=key(_NOISE, "the same of their headings", "rad"))
+    recovery_alpha_slow: float = field(
+        default=0.0,
+        metadata=key(
+            _SHARE,
+            "rate of the slower of two averages of the likelihood, whose ratio says how many random particles to mix in; 0 mixes in none,"
+            " as nav2 does",
+        ),
+    )
+    recovery_alpha_fast: float = field(default=0.0, metadata=key(_SHARE, "rate of the faster average, which is not below the other"))
 
     def __post_init__(self) -> None:
-        for name in ("particles", "first_particles"):
-            value = getattr(self, name)
-            if not isinstance(value, int) or value < 1:
-                raise ConfigError(f"{name} is {value!r}; give a whole number of at least 1")
-        for name in ("least_effective", "resample_below", "recovery_alpha_slow", "recovery_alpha_fast"):
-            value = getattr(self, name)
-            if not 0.0 <= value <= 1.0:
-                raise ConfigError(f"{name} is {value!r}; give a number from 0 to 1")
-        for name in ("roughening_m", "roughening_rad"):
-            value = getattr(self, name)
-            if not (math.isfinite(value) and value >= 0.0):
-                raise ConfigError(f"{name} is {value!r}; give a finite number that is not negative")
+        super().__post_init__()
         if self.recovery_alpha_slow > self.recovery_alpha_fast:
             raise ConfigError("recovery_alpha_slow exceeds recovery_alpha_fast; the slow average changes at the smaller rate")
 

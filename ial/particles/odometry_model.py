@@ -1,14 +1,16 @@
 """`OdometryModel`: where particles go when the odometry reports a motion."""
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from ial.contractors.boxes import FloatArray
 from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
-from ial.errors import ConfigError
+from ial.keys.key import key
+from ial.keys.kind import Number
+from ial.keys.record import Record
 from ial.pose import Pose
 
 _TURNS_ON_THE_SPOT_M = 0.01  # a shorter way has no direction
@@ -26,39 +28,20 @@ def _drive(start, stop, turns, errors, noise, poses):  # type: ignore[no-untyped
         poses[row, 2] = theta + last - last_error * noise[row, 2]
 
 
+_NOISE = Number(least=0.0)
+
+
 @dataclass(frozen=True)
-class OdometryModel:
+class OdometryModel(Record):
     """A differential drive with Gaussian errors, with the names and the defaults of nav2's AMCL.
-
-    Parameters
-    ----------
-    alpha1
-        Rotation's noise from rotation.
-    alpha2
-        Rotation's noise from translation.
-    alpha3
-        Translation's noise from translation.
-    alpha4
-        Translation's noise from rotation.
-
-    Raises
-    ------
-    ConfigError
-        If a number is negative or not finite.
 
     Source: Thrun, Burgard and Fox, Probabilistic Robotics, 2005, table 5.6.
     """
 
-    alpha1: float = 0.2
-    alpha2: float = 0.2
-    alpha3: float = 0.2
-    alpha4: float = 0.2
-
-    def __post_init__(self) -> None:
-        for part in fields(self):
-            value = getattr(self, part.name)
-            if not (math.isfinite(value) and value >= 0.0):
-                raise ConfigError(f"{part.name} is {value!r}; give a finite number that is not negative")
+    alpha1: float = field(default=0.2, metadata=key(_NOISE, "rotation's noise from rotation"))
+    alpha2: float = field(default=0.2, metadata=key(_NOISE, "rotation's noise from translation"))
+    alpha3: float = field(default=0.2, metadata=key(_NOISE, "translation's noise from translation"))
+    alpha4: float = field(default=0.2, metadata=key(_NOISE, "translation's noise from rotation"))
 
     def drive(self, poses: FloatArray, motion: Pose, random: np.random.Generator) -> None:
         """Move particles in place.

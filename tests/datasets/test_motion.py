@@ -179,7 +179,7 @@ def test_membership_is_modulo_two_pi() -> None:
 
 @pytest.mark.parametrize("numbers", [(-0.1, 0.0, 0.0), (0.1, -1.0, 0.0), (0.1, 0.0, math.nan), (math.inf, 0.0, 0.0)])
 def test_bounds_must_be_finite_and_not_negative(numbers: tuple[float, float, float]) -> None:
-    with pytest.raises(ConfigError, match="motion bound"):
+    with pytest.raises(ConfigError, match=r"ErrorBound\.per_\w+ is .*: give a finite number"):
         ErrorBound(*numbers)
 
 

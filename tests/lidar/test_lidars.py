@@ -79,5 +79,5 @@ def test_the_errors_are_those_of_the_scan_that_is_used() -> None:
 
 
 def test_errors_that_are_none_are_refused() -> None:
-    with pytest.raises(ConfigError, match="lidars: range_error_m is -1"):
+    with pytest.raises(ConfigError, match=r"LidarBounds\.range_error_m is -1"):
         LidarBounds(-1.0, 0.0)

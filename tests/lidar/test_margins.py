@@ -234,7 +234,7 @@ def test_what_cannot_be_counted_is_refused_where_it_is_asked_for() -> None:
     with pytest.raises(ConfigError, match=r"position_m is 6\.45 m, 129 cells of the map \(0\.05 m each\); give at most 6\.4 m"):
         divide(0.05, 6.45)
     for wrong in ({"max_beams": MOST_BEAMS + 1}, {"free_space": MOST_BEAMS + 1}):
-        with pytest.raises(ConfigError, match=f"is {MOST_BEAMS + 1}; give a whole number from 1 to {MOST_BEAMS}"):
+        with pytest.raises(ConfigError, match=f"is {MOST_BEAMS + 1}: give a whole number from 1 to {MOST_BEAMS}"):
             LocalizerConfig(max_beams=wrong["max_beams"]) if "max_beams" in wrong else FreeSpace(max_rays=wrong["free_space"])
     with pytest.raises(RecordingError, match="thousands of turns"):
         LaserScan(0, np.ones(3), 0.0, 5e4)

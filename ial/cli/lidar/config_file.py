@@ -9,15 +9,11 @@ from typing import Any
 import yaml
 
 from ial.errors import ConfigError
+from ial.keys.entry import entries, gone
 from ial.lidar.configuration.config import LocalizerConfig
-from ial.lidar.configuration.config_record import config_of, config_record
+from ial.lidar.configuration.config_record import config_of, file_content
 
 _PREFIX = "IAL_"
-_LIDAR = {"range_error_m": 0.0, "bearing_error_rad": 0.0}
-_BASE_IS_GONE = (
-    "has become two: per_scan, added once from each scan to the next, and per_message, added for each odometry message between them; "
-    "give the old value as per_scan if it was measured from scan to scan, and as per_message if it is of one message"
-)
 _OTHER_VARIABLES = ("IAL_THREADS", "IAL_CACHE_DIR", "IAL_DATA", "IAL_ITF1788")
 
 
@@ -42,30 +38,24 @@ def resolve(
     ConfigError
         If a key is unknown or a value cannot be used. The text names the source, the key, and what is allowed.
     """
-    record = config_record(LocalizerConfig())
+    said: dict[str, Any] = {}
     config = LocalizerConfig()
-    for source, layer in _layers(record, file, settings, environment, named):
-        record = _merged(record, layer)
-        config = _validated(record, source)
+    for source, layer in _layers(file, settings, environment, named):
+        said = _merged(said, layer)
+        try:
+            config = config_of(said)
+        except ConfigError as error:
+            raise ConfigError(f"{source}: {error}") from None
     return config
 
 
 def _layers(
-    defaults: Mapping[str, Any], file: Path | None, settings: Sequence[str], environment: Mapping[str, str], named: Mapping[str, Any]
+    file: Path | None, settings: Sequence[str], environment: Mapping[str, str], named: Mapping[str, Any]
 ) -> Iterator[tuple[str, dict[str, Any]]]:
     """Yield the sources from the weakest to the strongest, each with what it says."""
     if file is not None:
-        yield str(file), _read(file)
-    names = {_PREFIX + "_".join(path).upper(): path for path in _paths(defaults)}
-    for variable in sorted(environment):
-        if variable in names:
-            yield variable, _nested(names[variable], _parsed(environment[variable], variable))
-        elif variable.startswith(_PREFIX) and variable not in _OTHER_VARIABLES:
-            if variable.startswith(f"{_PREFIX}MOTION_") and variable.endswith("_BASE"):
-                raise ConfigError(f"the environment variable {variable} {_BASE_IS_GONE}")
-            close = difflib.get_close_matches(variable, [*names, *_OTHER_VARIABLES], 1)
-            hint = f"did you mean {close[0]}?" if close else f"variables that are known begin with {', '.join(sorted(names)[:3])}, …"
-            raise ConfigError(f"the environment variable {variable} is no setting of ial; unset it, or correct it: {hint}")
+        yield str(file), file_content(file)
+    yield from _variables({name: value for name, value in environment.items() if name.startswith(_PREFIX)})
     for setting in settings:
         key, equals, value = setting.partition("=")
         if not equals or not key.strip():
@@ -76,12 +66,23 @@ def _layers(
             yield f"--{key}", {key: value}
 
 
-def _paths(record: Mapping[str, Any], above: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
-    for key, value in record.items():
-        if isinstance(value, dict):
-            yield from _paths(value, (*above, key))
-        else:
-            yield (*above, key)
+def _variables(environment: Mapping[str, str]) -> Iterator[tuple[str, dict[str, Any]]]:
+    """Yield the variables, each with what it says."""
+    known = {_variable(entry.path): entry.path for entry in entries(LocalizerConfig) if entry.one}
+    for name in sorted(environment.keys() - _OTHER_VARIABLES):
+        if name in known:
+            yield name, _nested(known[name], _parsed(environment[name], name))
+            continue
+        for path, text in gone(LocalizerConfig):
+            if name == _variable(path):
+                raise ConfigError(f"the environment variable {name} {text}")
+        close = difflib.get_close_matches(name, [*known, *_OTHER_VARIABLES], 1)
+        hint = f"did you mean {close[0]}?" if close else f"variables that are known begin with {', '.join(sorted(known)[:3])}, …"
+        raise ConfigError(f"the environment variable {name} is no setting of ial; unset it, or correct it: {hint}")
+
+
+def _variable(path: Sequence[str]) -> str:
+    return _PREFIX + "_".join(path).upper()
 
 
 def _nested(path: Sequence[str], value: Any) -> dict[str, Any]:
@@ -97,87 +98,9 @@ def _parsed(text: str, source: str) -> Any:
         raise ConfigError(f"{source}: {text!r} is no value; give a number or a word") from None
 
 
-class _Loader(yaml.SafeLoader):
-    """Reads YAML and refuses a key that is there twice, of which YAML would silently keep the last."""
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-        keys = [key.value for key, _ in node.value if isinstance(key, yaml.ScalarNode)]
-        twice = [key for key in keys if keys.count(key) > 1]
-        if twice:
-            raise ConfigError(f"line {node.start_mark.line + 1}: the key '{twice[0]}' is there twice; keep one")
-        return super().construct_mapping(node, deep)
-
-
-def _read(file: Path) -> dict[str, Any]:
-    try:
-        content = yaml.load(file.read_text(encoding="utf-8"), Loader=_Loader)
-    except ConfigError as error:
-        raise ConfigError(f"{file}: {error}") from None
-    except OSError as error:
-        raise ConfigError(f"{file}: the configuration cannot be read ({error.strerror or error}); check the path") from None
-    except (yaml.YAMLError, UnicodeDecodeError, RecursionError, ValueError) as error:
-        raise ConfigError(f"{file}: not a YAML file ({error}); `ial localize --dump-config` prints one to begin with") from None
-    if content is None:
-        return {}
-    if not isinstance(content, dict):
-        raise ConfigError(f"{file}: holds no `key: value` lines; `ial localize --dump-config` prints a file to begin with")
-    return content
-
-
 def _merged(below: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:
     merged = dict(below)
     for key, value in above.items():
         both = isinstance(value, dict) and isinstance(below.get(key), dict)
         merged[key] = _merged(below[key], value) if both else value
     return merged
-
-
-def _validated(record: dict[str, Any], source: str) -> LocalizerConfig:
-    if _as_written(record, config_record(LocalizerConfig())):
-        try:
-            return config_of(record)
-        except (ConfigError, TypeError):
-            pass  # said better below
-    # Only where a value needs to be converted, or an error explained: importing pydantic costs 10 MB, which a robot may not have.
-    from pydantic import ValidationError
-
-    from ial.cli.lidar.config_keys import ConfigKeys
-
-    try:
-        return ConfigKeys.model_validate(record).config()
-    except ValidationError as error:
-        raise ConfigError("; ".join(f"{source}: {_fault(dict(fault), record)}" for fault in error.errors())) from None
-    except ConfigError as error:
-        raise ConfigError(f"{source}: {error}") from None
-
-
-def _as_written(value: Any, default: Any) -> bool:
-    """Return whether a value has the very form in which ial writes it: the same keys, and types that need no conversion."""
-    if default == {}:  # the lidars, by name
-        return isinstance(value, dict) and all(isinstance(name, str) and _as_written(each, _LIDAR) for name, each in value.items())
-    if isinstance(default, dict):
-        return (
-            isinstance(value, dict) and list(value) == list(default) and all(_as_written(value[key], each) for key, each in default.items())
-        )
-    # Where the default is a word or nothing, a number may stand as well.
-    return type(value) is type(default) or (isinstance(default, str | None) and type(value) in (int, float))
-
-
-def _fault(fault: Mapping[str, Any], record: Mapping[str, Any]) -> str:
-    """Return what is wrong with a value, and what is allowed."""
-    path = [str(part) for part in fault["loc"]]
-    key = ".".join(path)
-    if path[0] == "motion" and path[-1] == "base":
-        return f"the key '{key}' {_BASE_IS_GONE}"
-    if fault["type"] == "extra_forbidden":
-        level: Any = config_record(LocalizerConfig())
-        for part in path[:-1]:
-            # What is empty by default has the keys of its sibling, or those of a lidar.
-            level = level.get(part) or level.get("translation") or _LIDAR
-        close = difflib.get_close_matches(path[-1], level, 1)
-        hint = f"; did you mean '{close[0]}'?" if close else ""
-        return f"unknown key '{key}'; allowed are {', '.join(level)}{hint}"
-    if fault["type"] == "missing":
-        return f"the key '{key}' is missing"
-    said = str(fault["msg"]).removeprefix("Value error, ")
-    return f"{key} is {fault['input']!r}: {said[0].lower()}{said[1:]}"

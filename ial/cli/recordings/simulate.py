@@ -40,6 +40,7 @@ def simulate(
     from ial.datasets.simulator import simulate as drive
     from ial.datasets.trajectory import write_tum
     from ial.datasets.walk import random_walk
+    from ial.keys.reading import read
     from ial.maps.grids.loading import load_map
 
     sizes = {"view-rad": view_rad, "range-max-m": range_max_m, "step-m": step_m, "turn-rad": turn_rad, "period-s": period_s}
@@ -53,7 +54,8 @@ def simulate(
     at = pose_of(laser_pose)
     mounting = Mounting() if at is None else Mounting(at.x, at.y, at.theta)
     lidar = Lidar(beams, -0.5 * view_rad, view_rad / (beams - 1), range_max=range_max_m, mounting=mounting)
-    errors = SensorErrors(range_error_m, bearing_error_rad, outliers)
+    given = {"range_error_m": range_error_m, "bearing_error_rad": bearing_error_rad, "outliers": outliers}
+    errors = read(SensorErrors(), given)
     path = random_walk(grid, scans, seed, step_m, turn_rad)
     simulation = drive(grid, path, lidar, errors, bounds, seed, period_s)
     count = convert(simulation.recording, out)

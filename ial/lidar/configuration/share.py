@@ -1,16 +1,65 @@
-"""`Share`: so many of some beams, as a whole number of them or as a part of all."""
+"""`Share`: so many of some beams, as a whole number of them or as a part of all; and `ShareKind`, the keys that have one."""
 
 import functools
 import math
+from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Integral
+from typing import Any
 
 import numpy as np
 
 from ial.errors import ConfigError
+from ial.keys.kind import Kind
 
 Share = int | float | Fraction
+
+
+@dataclass(frozen=True)
+class ShareKind(Kind):
+    """A key that has a share: 1 is one beam, and 1.0 or 1/1 all of them.
+
+    Parameters
+    ----------
+    auto
+        Whether it may also be the word `auto`.
+    """
+
+    auto: bool = False
+
+    @property
+    def allowed(self) -> str:
+        """What may be given."""
+        return "a whole number of beams, or a fraction from 0.0 to 1.0 or such as 1/3" + (", or 'auto'" if self.auto else "")
+
+    @property
+    def brief(self) -> str:
+        """The same, short."""
+        return "whole, 0.0 to 1.0, 1/3" + (", `auto`" if self.auto else "")
+
+    def checked(self, value: Any) -> Any:
+        """Return a share in the plain types of Python."""
+        if self.auto and isinstance(value, str) and value == "auto":
+            return value
+        share = share_of(value)
+        if share is None:
+            raise ValueError(f"give {self.allowed}")
+        return share
+
+    def meant(self, value: Any) -> Any:
+        """Return the share that a text holds."""
+        if not isinstance(value, str):
+            return value
+        text = value.strip()
+        try:
+            return Fraction(text) if "/" in text else int(text) if text.isdigit() else float(text)
+        except (ValueError, ZeroDivisionError):
+            return value
+
+    def written(self, value: Any) -> Any:
+        """Return a fraction as a text, "1/1" too: 1 would be one beam."""
+        return f"{value.numerator}/{value.denominator}" if isinstance(value, Fraction) else value
 
 
 def share_of(value: object) -> Share | None:

@@ -32,7 +32,7 @@ def test_the_same_seed_gives_the_same_bytes(ial: Cli, room: Path, tmp_path: Path
         (["--map", "nowhere.yaml", "--out", "run.mcap"], "nowhere.yaml: the map does not exist"),
         (["--map", "room.yaml", "--out", "run.txt"], "must end in .mcap"),
         (["--map", "room.yaml", "--out", "run.mcap", "--step-m", "nan"], "--step-m is nan; give a finite number above 0"),
-        (["--map", "room.yaml", "--out", "run.mcap", "--range-error-m", "-1"], "range_error_m is -1.0; give a finite number"),
+        (["--map", "room.yaml", "--out", "run.mcap", "--range-error-m", "-1"], "range_error_m is -1.0: give a finite number"),
     ],
 )
 def test_bad_input(refused: Callable[..., str], room: Path, options: list[str], message: str) -> None:

@@ -4,6 +4,7 @@ import itertools
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -164,3 +165,16 @@ def test_motion_that_may_lead_anywhere_excludes_nothing(error: float) -> None:
     # Only the first beam, at which the robot has not moved yet, says anything.
     still = Localizer(grid, config=replace(config, deskew=False)).locate(replace(scan, ranges=scan.ranges[:1], sweep=None))
     assert {tuple(each) for each in still.poses.boxes.lower.tolist()} <= {tuple(each) for each in estimate.poses.boxes.lower.tolist()}
+
+
+@pytest.mark.parametrize("beams", [4, 7, 90])
+def test_a_beam_has_exactly_its_share_of_a_turn(beams: int) -> None:
+    """Without any error, half a radian in 0.2 s: the share of each beam is a fraction, and stamps are whole nanoseconds."""
+    path = OdometryPath(np.array([0, SWEEP_NS]), np.array([Odometry.of(Pose(0.0, 0.0, turned)).numbers for turned in (0.0, 0.5)]))
+    boxes = sweep_boxes(path, MotionBounds(ErrorBound(), ErrorBound()), beams)
+    turned = boxes[-1, 2]
+    for beam, box in enumerate(boxes):
+        share = Fraction(beam, beams - 1)
+        assert Fraction(float(box[2, 0])) <= share * Fraction(float(turned[1]))
+        assert share * Fraction(float(turned[0])) <= Fraction(float(box[2, 1]))
+        assert box[2, 1] - box[2, 0] <= 1e-6
