@@ -5,7 +5,7 @@ with labels that repeat 01 give one knowledge cycle of 30,030 states, the least 
 which rules this out; the number of states is limited all the same.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -67,17 +67,20 @@ class Automaton:
         After so many observations every robot is in a knowledge cycle, and some need as many.
     """
 
-    graph: LabelledGraph = field(repr=False)
-    successors: npt.NDArray[np.int32] = field(repr=False)
-    sizes: npt.NDArray[np.int32] = field(repr=False)
-    uncertainty: npt.NDArray[np.int64] = field(repr=False)
-    environments: npt.NDArray[np.uint64] = field(repr=False)
-    colours: npt.NDArray[np.int32] = field(repr=False)
-    cycles: KnowledgeCycles = field(repr=False)
+    graph: LabelledGraph
+    successors: npt.NDArray[np.int32]
+    sizes: npt.NDArray[np.int32]
+    uncertainty: npt.NDArray[np.int64]
+    environments: npt.NDArray[np.uint64]
+    colours: npt.NDArray[np.int32]
+    cycles: KnowledgeCycles
     depth: int
 
     def __len__(self) -> int:
         return len(self.successors)
+
+    def __repr__(self) -> str:
+        return f"<Automaton of {len(self)} states, {len(self.cycles)} knowledge cycles, depth {self.depth}>"
 
     @cached_property
     def _places(self) -> npt.NDArray[np.int64]:

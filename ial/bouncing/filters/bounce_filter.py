@@ -51,6 +51,11 @@ class BounceFilter:
     places: CyclePlaces
     setting: Setting
 
+    def __repr__(self) -> str:
+        return (
+            f"<BounceFilter of {len(self.table) - 1} states and {self.table.cycles} knowledge cycles for {', '.join(self.setting.names)}>"
+        )
+
     @cached_property
     def _steps(self) -> npt.NDArray[np.int64]:
         """How many steps each state stands behind the anchor of its cycle."""
