@@ -43,6 +43,9 @@ class Contractor(ABC):
     space: Space | None = None
     """The variables that the constraint was written with; those of different spaces do not combine. None where axes have no names."""
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} of dimension {self.dimension}>"
+
     @abstractmethod
     def contract(self, boxes: Boxes) -> Boxes:
         """Return the narrowed boxes."""

@@ -42,6 +42,9 @@ class Separator:
         self.inner = _one(inner)
         self.outer = _one(outer)
 
+    def __repr__(self) -> str:
+        return f"Separator(inner={self.inner!r}, outer={self.outer!r})"
+
     @classmethod
     def of(cls, contractor: ContractorLike) -> "Separator":
         """Return the separator of a contractor that knows its complement.

@@ -37,6 +37,9 @@ class InMemoryRecording:
         if any(later <= earlier for earlier, later in pairwise(stamps)):
             raise RecordingError(f"{name}: the stamps do not increase; sort the scans by time")
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.name}>"
+
     def readings(self) -> Iterator[Reading]:
         """Yield the scans in order."""
         yield from self._readings

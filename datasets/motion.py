@@ -42,6 +42,10 @@ class Motion:
             bound.setflags(write=False)
             object.__setattr__(self, name, bound)
 
+    def __repr__(self) -> str:
+        x, y, theta = (f"[{low}, {high}]" for low, high in zip(self.lower.tolist(), self.upper.tolist(), strict=True))
+        return f"<Motion: x {x} m, y {y} m, θ {theta} rad>"
+
     @classmethod
     def identity(cls) -> "Motion":
         """Return the motion of a robot that stands still."""

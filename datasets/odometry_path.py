@@ -35,6 +35,9 @@ class OdometryPath:
             array.setflags(write=False)
             object.__setattr__(self, name, array)
 
+    def __repr__(self) -> str:
+        return f"<OdometryPath of {len(self)} messages>"
+
     @classmethod
     def of(cls, samples: Iterable[tuple[int, Odometry]] = ()) -> "OdometryPath":
         """Return the path of pairs of stamp in nanoseconds and odometry."""

@@ -67,6 +67,9 @@ class Reader(ABC):
         self.skipped: Counter[str] = Counter()
         self.repaired: Counter[str] = Counter()
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self.name}>"
+
     @abstractmethod
     def _records(self) -> Iterator[Record]:
         """Yield the scans in the order of the file."""

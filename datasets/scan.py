@@ -120,6 +120,12 @@ class LaserScan:
         object.__setattr__(self, "ranges", ranges)
         self._validate()
 
+    def __repr__(self) -> str:
+        return (
+            f"<LaserScan at {self.stamp_ns} ns: {len(self)} beams from {self.angle_min:.4g} by {self.angle_increment:.4g} rad, "
+            f"ranges {self.range_min:g} to {self.range_max:g} m>"
+        )
+
     def _validate(self) -> None:
         if self.ranges.ndim != 1 or not len(self.ranges):
             raise RecordingError("scan without beams")

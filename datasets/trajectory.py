@@ -53,6 +53,10 @@ class Trajectory:
             array.setflags(write=False)
             object.__setattr__(self, name, array)
 
+    def __repr__(self) -> str:
+        span = f", {(int(self.stamps_ns[-1]) - int(self.stamps_ns[0])) / 1e9:.2f} s" if len(self) else ""
+        return f"<Trajectory of {len(self)} poses{span}>"
+
     @classmethod
     def of(cls, samples: Iterable[tuple[int, Pose]]) -> "Trajectory":
         """Return the trajectory of (stamp in nanoseconds, pose) pairs."""

@@ -85,6 +85,9 @@ class Affine:
             raise ValueError("the matrix cannot be proved to be invertible: it is singular, or nearly so")
         self._set((exact, exact), inverse, np.zeros_like(shift), shift)
 
+    def __repr__(self) -> str:
+        return f"<Affine map of {self.dimension} dimensions>"
+
     def _set(self, matrix: Pair, inverse: Pair, origin: FloatArray, offset: FloatArray) -> None:
         self._matrix, self._inverse, self._origin, self._offset = matrix, inverse, origin, offset
         self.dimension = len(offset)

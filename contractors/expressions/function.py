@@ -50,6 +50,9 @@ class Function:
         self._jacobian: Tape | None = None
         self._conditions: dict[str, tuple[Tape, Bounds]] = {}
 
+    def __repr__(self) -> str:
+        return f"Function({', '.join(map(repr, self.expressions))})"
+
     @property
     def values(self) -> int:
         """The number m of formulas."""

@@ -49,6 +49,9 @@ class FunctionFamily:
         self.dimension: int = self.space.dimension
         self.tape = Tape(self.dimension, self.expressions)
 
+    def __repr__(self) -> str:
+        return f"FunctionFamily({', '.join(map(repr, self.expressions))})"
+
     @property
     def count(self) -> int:
         """The number of functions m."""

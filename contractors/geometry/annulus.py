@@ -59,6 +59,9 @@ class Annulus(RowContractor):
         self.centre = (float(centre[0]), float(centre[1]))
         self.distance = Interval(max(distance.lower, 0.0), distance.upper)
 
+    def __repr__(self) -> str:
+        return f"Annulus({self.centre}, {self.distance!r})"
+
     def complement(self) -> Contractor:
         """Return the contractor of the points nearer or farther, both circles included."""
         parts: list[Contractor] = []

@@ -92,6 +92,9 @@ class _Side(RowContractor):
         self.edges = edges
         self._wanted = side
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} with {len(self.edges.starts)} edges>"
+
     def complement(self) -> "_Side":
         """Return the contractor of the points on the other side, or on an edge."""
         return _Side(self.edges, -self._wanted)

@@ -127,6 +127,9 @@ class Segments(RowContractor):
         self.tree = BoxTree(np.minimum(begin, end), np.maximum(begin, end))
         self.starts, self.ends = begin[self.tree.order], end[self.tree.order]
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {len(self.starts)} in {self.dimension} dimensions>"
+
     def _narrow_rows(self, lower: FloatArray, upper: FloatArray) -> None:
         run(_contract_rows, len(lower), self.tree.lower, self.tree.upper, self.starts, self.ends, lower, upper)
 

@@ -37,6 +37,9 @@ class Clusters:
     def __len__(self) -> int:
         return len(self.hulls)
 
+    def __repr__(self) -> str:
+        return f"<Clusters: {len(self)} of {len(self.labels)} boxes>"
+
 
 def cluster(boxes: Boxes, circular: Sequence[int] = ()) -> Clusters:
     """Return the connected components of boxes.

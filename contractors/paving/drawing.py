@@ -1,5 +1,6 @@
 """Pictures of pavings."""
 
+import io
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -8,6 +9,8 @@ import numpy.typing as npt
 from ial.contractors.boxes import Boxes
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from matplotlib.axes import Axes
 
 INNER_COLOUR, BOUNDARY_COLOUR = "#7fb8a4", "#f2c14e"
@@ -58,6 +61,17 @@ def draw(inner: Boxes, boundary: Boxes, axes: tuple[int, int] = (0, 1), ax: "Axe
     ax.set_xlabel(f"axis {across}")
     ax.set_ylabel(f"axis {along}")
     return ax
+
+
+def png(paint: "Callable[[Axes], object]") -> bytes:
+    """Return a PNG of what a function paints, as a notebook shows it; figures that matplotlib has open are left alone."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(5.0, 4.0), dpi=100, layout="constrained")
+    paint(figure.add_subplot())
+    data = io.BytesIO()
+    figure.savefig(data, format="png")
+    return data.getvalue()
 
 
 def _corners(boxes: Boxes, across: int, along: int) -> npt.NDArray[np.float64]:

@@ -43,6 +43,22 @@ class Paving:
     limited: Limit = ""
     nodes: int = 0
 
+    def __repr__(self) -> str:
+        stopped = f", stopped early by {self.limited}" if self.limited else ""
+        hull = f", hull {' × '.join(map(str, next(iter(self.hull()))))}" if len(self.boxes) else ""
+        return (
+            f"<Paving in {self.dimension} dimensions: {len(self.inner)} inner boxes, {len(self.boundary)} of the boundary{hull}{stopped}>"
+        )
+
+    def _repr_png_(self) -> bytes | None:
+        """Return a picture for a notebook, along the first two axes; None, which shows the text, if there is nothing that can be drawn."""
+        seen = self.hull()
+        if self.dimension < 2 or not np.isfinite([seen.lower[:, :2], seen.upper[:, :2]]).all():
+            return None
+        from ial.contractors.paving.drawing import png
+
+        return png(lambda ax: self.draw(ax=ax))
+
     @cached_property
     def boxes(self) -> Boxes:
         """All boxes, the inner ones first: every solution lies in one of them."""

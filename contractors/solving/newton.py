@@ -53,6 +53,9 @@ class Newton(CheckedContractor):
         self.function = function
         function.jacobian(Boxes.none(self.dimension))  # raises where no derivative is known
 
+    def __repr__(self) -> str:
+        return f"Newton({self.function!r})"
+
     @property
     def axes(self) -> tuple[int, ...]:
         """The sides of a box that the function depends on."""

@@ -75,6 +75,9 @@ class Problem(CheckedContractor):
         self._contractors = {id(constraint): _tightened(constraint) for constraint in self.constraints}
         self._propagation = self._propagated(self.constraints)
 
+    def __repr__(self) -> str:
+        return f"<Problem of {', '.join(self.space.names)}: {len(self.constraints)} constraints>"
+
     @property
     def domains(self) -> dict[str, Interval]:
         """The domain of each variable, by its name."""

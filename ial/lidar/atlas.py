@@ -142,6 +142,9 @@ class Atlas:
         self.model = AtlasModel({name: LidarModel(grid, self.config) for name, grid in self.grids.items()})
         self._filter = SetMembershipFilter(self.model, self.config.recovery)
 
+    def __repr__(self) -> str:
+        return f"<Atlas of {len(self.grids)} maps: {', '.join(self.grids)}>"
+
     @property
     def poses(self) -> dict[str, PoseSet]:
         """The present set of poses of each map, in the grid's frame."""

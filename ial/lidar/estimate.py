@@ -76,6 +76,23 @@ class Estimate:
     vanishing: bool = False
     rejection: Rejection | None = None
 
+    def __repr__(self) -> str:
+        at = "" if self.pose is None else f" around {self.pose}"
+        left = f"{self.status}, {self._left} in {len(self.poses)} boxes{at}"
+        return f"<Estimate at {self.stamp_ns} ns: {left}; {self.outliers_allowed} of {self.beams} beams may be bad>"
+
+    def _repr_png_(self) -> bytes:
+        """Return a picture for a notebook: see `ial.lidar.estimate_picture.draw_hypotheses`."""
+        from ial.contractors.paving.drawing import png
+        from ial.lidar.estimate_picture import draw_hypotheses
+
+        return png(lambda ax: draw_hypotheses(ax, self.hypotheses, self.pose, f"{self.status}: {self._left}"))
+
+    @property
+    def _left(self) -> str:
+        count = len(self.hypotheses)
+        return f"{count} {'hypothesis' if count == 1 else 'hypotheses'}"
+
 
 def radius(poses: PoseSet, pose: Pose, grid: OccupancyGrid) -> float:
     """Return a distance (m) from a pose in the map frame that no position of a set exceeds, rounded up."""

@@ -81,6 +81,9 @@ class Localizer:
         self._start_symmetries = self.model.symmetries() if initial is None else ()
         self.reset()
 
+    def __repr__(self) -> str:
+        return f"<Localizer in {self.grid!r}; now {self.poses!r}>"
+
     def reset(self) -> None:
         """Forget everything but the start."""
         self._updates = 0

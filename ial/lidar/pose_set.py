@@ -52,6 +52,10 @@ class PoseSet:
     def __len__(self) -> int:
         return len(self.boxes)
 
+    def __repr__(self) -> str:
+        hull = f", hull {' × '.join(map(str, next(iter(self.boxes.hull()))))}" if len(self) else ""
+        return f"<PoseSet of {len(self)} boxes in the grid's frame{hull}>"
+
     @functools.cached_property
     def clusters(self) -> Clusters:
         """The connected components of the boxes."""

@@ -29,6 +29,9 @@ class Lapses(Model[tuple[States, ...], Motion, Reading]):
         self.model = model
         self.most = most
 
+    def __repr__(self) -> str:
+        return f"Lapses({self.model!r}, most={self.most})"
+
     def universe(self) -> tuple[States, ...]:
         """Return all states, without a wrong reading so far."""
         return (self.model.universe(),)

@@ -57,6 +57,9 @@ class SetMembershipFilter(Generic[States, Motion, Reading]):
         self.remaining = self.states
         self._steps = 0
 
+    def __repr__(self) -> str:
+        return f"<SetMembershipFilter of {self.model!r}, recovery {self.recovery}>"
+
     def update(self, motion: Motion, reading: Reading) -> Rejection | None:
         """Take one step; return the rejection if no state of the set before it explains the reading."""
         before = self.states

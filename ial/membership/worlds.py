@@ -24,6 +24,9 @@ class Worlds(Model[dict[str, States], Motion, Reading]):
             raise ValueError("no world to be in; give at least one")
         self.models = dict(models)
 
+    def __repr__(self) -> str:
+        return f"Worlds({self.models!r})"
+
     def universe(self) -> dict[str, States]:
         """Return all states of all worlds."""
         return {name: model.universe() for name, model in self.models.items()}

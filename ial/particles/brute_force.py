@@ -140,6 +140,9 @@ class BruteForce:
         if not len(self._positions):
             raise ConfigError(f"no position of a lattice of {position_m:g} m lies in a free cell; give a smaller position_m")
 
+    def __repr__(self) -> str:
+        return f"<BruteForce in {self.grid!r}: {self.headings} headings, {self.candidates} candidates>"
+
     def locate(self, scan: LaserScan) -> Match:
         """Return where a scan fits best.
 

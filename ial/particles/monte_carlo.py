@@ -174,6 +174,9 @@ class MonteCarlo:
             self.poses = np.array([at.x, at.y, at.theta]) + spread * self._random.standard_normal((self.config.particles, 3))
         self.weights = np.full(len(self.poses), 1.0 / len(self.poses))
 
+    def __repr__(self) -> str:
+        return f"<MonteCarlo in {self.grid!r}: {len(self.poses)} particles>"
+
     def update(self, odometry: Pose, scan: LaserScan) -> Cloud:
         """Take the odometry and a scan; return the mean of the cloud.
 

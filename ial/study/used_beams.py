@@ -57,6 +57,9 @@ class UsedBeams:
     def __len__(self) -> int:
         return len(self.numbers)
 
+    def __repr__(self) -> str:
+        return f"<UsedBeams: {len(self)}>"
+
     @classmethod
     def of(cls, scan: LaserScan, config: LocalizerConfig) -> "UsedBeams":
         """Return the beams of a scan that a configuration uses, as docs/guarantee.md defines them."""

@@ -205,6 +205,10 @@ class CellIndex:
         self.resolution = float(resolution)
         self.inverse_resolution = 1.0 / self.resolution
 
+    def __repr__(self) -> str:
+        rows, columns = (side - 1 for side in self.table.shape)
+        return f"<CellIndex of {columns} × {rows} cells of {self.resolution} m>"
+
     def meet(self, boxes: Boxes) -> npt.NDArray[np.bool_]:
         """Return which boxes (x, y) meet a cell of the set, shape (n,); never False where one does."""
         _check_plane(boxes)

@@ -90,6 +90,15 @@ class OccupancyGrid:
         object.__setattr__(self, "cells", view)
         object.__setattr__(self, "resolution", float(self.resolution))
 
+    def __repr__(self) -> str:
+        return f"<OccupancyGrid: {self.columns} × {self.rows} cells of {self.resolution} m, lower left corner at {self.origin}>"
+
+    def _repr_png_(self) -> bytes:
+        """Return a picture for a notebook."""
+        from ial.maps.grids.grid_picture import png
+
+        return png(self.cells)
+
     @property
     def rows(self) -> int:
         """The number of cells along y."""

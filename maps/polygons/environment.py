@@ -36,6 +36,11 @@ class Environment:
         if not self.polygons:
             raise MapError("the environment has no free space; give at least one polygon, or a map with free cells")
 
+    def __repr__(self) -> str:
+        count = len(self.polygons)
+        cell = "" if self.cell is None else f", cells of {float(self.cell):g} m"
+        return f"<Environment: {count} {'polygon' if count == 1 else 'polygons'}{cell}>"
+
     @property
     def area(self) -> Fraction:
         """The area of the free space in square metres."""

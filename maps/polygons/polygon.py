@@ -49,6 +49,10 @@ class Polygon:
         object.__setattr__(self, "outer", next(turned))
         object.__setattr__(self, "holes", tuple(turned))
 
+    def __repr__(self) -> str:
+        corners = "corner" if len(self.outer) == 1 else "corners"
+        return f"<Polygon: {len(self.outer)} {corners}, {len(self.holes)} {'hole' if len(self.holes) == 1 else 'holes'}>"
+
     @classmethod
     def trusted(cls, outer: ExactRing, holes: tuple[ExactRing, ...]) -> "Polygon":
         """Return a polygon from rings of which the caller knows that they are in order, and turned the right way."""

@@ -41,6 +41,10 @@ class Raster:
     x: Fraction = Fraction(0)
     y: Fraction = Fraction(0)
 
+    def __repr__(self) -> str:
+        rows, columns = self.free.shape
+        return f"<Raster: {columns} × {rows} cells of {float(self.cell):g} m, {int(self.free.sum())} free>"
+
 
 def rasterize(environment: Environment, cell: Fraction, rule: Rule = "inside") -> Raster:
     """Return which cells are free; nothing is rounded.

@@ -5,12 +5,13 @@ with labels that repeat 01 give one knowledge cycle of 30,030 states, the least 
 which rules this out; the number of states is limited all the same.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
+from ial.bouncing.automata.cycle_walk import walk_cycles
 from ial.bouncing.cells.graph import LabelledGraph
 from ial.errors import FilterError
 
@@ -67,28 +68,25 @@ class Automaton:
         After so many observations every robot is in a knowledge cycle, and some need as many.
     """
 
-    graph: LabelledGraph = field(repr=False)
-    successors: npt.NDArray[np.int32] = field(repr=False)
-    sizes: npt.NDArray[np.int32] = field(repr=False)
-    uncertainty: npt.NDArray[np.int64] = field(repr=False)
-    environments: npt.NDArray[np.uint64] = field(repr=False)
-    colours: npt.NDArray[np.int32] = field(repr=False)
-    cycles: KnowledgeCycles = field(repr=False)
+    graph: LabelledGraph
+    successors: npt.NDArray[np.int32]
+    sizes: npt.NDArray[np.int32]
+    uncertainty: npt.NDArray[np.int64]
+    environments: npt.NDArray[np.uint64]
+    colours: npt.NDArray[np.int32]
+    cycles: KnowledgeCycles
     depth: int
 
     def __len__(self) -> int:
         return len(self.successors)
 
+    def __repr__(self) -> str:
+        return f"<Automaton of {len(self)} states, {len(self.cycles)} knowledge cycles, depth {self.depth}>"
+
     @cached_property
-    def _places(self) -> npt.NDArray[np.int64]:
+    def _steps(self) -> npt.NDArray[np.int64]:
         """How many steps each state stands behind the anchor of its cycle."""
-        places = np.zeros(len(self), dtype=np.int64)
-        for anchor, length in zip(self.cycles.anchors, self.cycles.lengths, strict=True):
-            state = int(anchor)
-            for place in range(int(length)):
-                places[state] = place
-                state = int(self.successors[state].max())
-        return places
+        return walk_cycles(self.successors, self.cycles.anchors)[1]
 
     def cells(self, state: int) -> npt.NDArray[np.int32]:
         """Return the vertices of a state of a knowledge cycle, in increasing order.
@@ -102,7 +100,7 @@ class Automaton:
         if cycle < 0:
             raise FilterError(f"state {state} is on no knowledge cycle, so its set is not kept; use `BouncingModel` for all sets")
         found = self.cycles.members[self.cycles.starts[cycle] : self.cycles.starts[cycle + 1]]
-        for _ in range(int(self._places[state])):
+        for _ in range(int(self._steps[state])):
             arcs = self.graph.arcs[found]
             found = np.where(arcs < 0, ~arcs, arcs)
         return np.sort(found)

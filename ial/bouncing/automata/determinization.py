@@ -2,8 +2,9 @@
 
 import numpy as np
 
-from ial.bouncing.automata.automaton import Automaton, KnowledgeCycles
-from ial.bouncing.automata.subset import TOO_MANY, construct, depth_and_colours
+from ial.bouncing.automata.automaton import IN_NO_CYCLE, Automaton, KnowledgeCycles
+from ial.bouncing.automata.cycle_walk import walk_cycles
+from ial.bouncing.automata.subset import TOO_MANY, construct, depth_of
 from ial.bouncing.automata.verification import compare_sets
 from ial.bouncing.cells.graph import MOST_PARTS, LabelledGraph
 from ial.errors import FilterError
@@ -44,8 +45,9 @@ def determinize(graph: LabelledGraph, most_states: int = MOST_STATES, verify: bo
     successors, sizes = successors[:states].copy(), counts[:states, 0].astype(np.int32)
     uncertainty = counts[:states, 0 if graph.weights is None else 1].copy()
     environments = sums[:states, 2].copy() if many else np.ones(states, dtype=np.uint64)
-    anchors, colours = anchors[:cycles].copy(), np.empty(states, dtype=np.int32)
-    depth = depth_and_colours(successors, anchors, colours)
+    anchors = anchors[:cycles].copy()
+    colours = walk_cycles(successors, anchors)[0] + np.int32(IN_NO_CYCLE + 1)
+    depth = depth_of(successors, colours)
     lengths = np.bincount(colours, minlength=cycles + 2)[2:]
     starts = starts[: cycles + 1].copy()
     found = KnowledgeCycles(anchors, lengths, uncertainty[anchors], starts, members[: starts[-1]].copy())

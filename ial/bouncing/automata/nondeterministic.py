@@ -27,6 +27,9 @@ class NondeterministicAutomaton:
     graph: LabelledGraph
     final: npt.NDArray[np.bool_]
 
+    def __repr__(self) -> str:
+        return f"<NondeterministicAutomaton on {self.graph!r}>"
+
     @classmethod
     def of(cls, graph: LabelledGraph) -> "NondeterministicAutomaton":
         """Return the automaton of a graph."""

@@ -29,6 +29,9 @@ class SetAutomaton:
     def __len__(self) -> int:
         return len(self.sizes)
 
+    def __repr__(self) -> str:
+        return f"<SetAutomaton of {len(self)} states>"
+
 
 def determinize_sets(graph: SetGraph, most_states: int = 100_000) -> SetAutomaton:
     """Return the deterministic automaton of a set-valued graph. Sets may overlap in every way, so there may be very many.

@@ -211,19 +211,12 @@ def construct(arcs, weights, parts, most):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def depth_and_colours(successors, anchors, colours):  # type: ignore[no-untyped-def]
-    """Colour the states (1 outside of knowledge cycles, 2 and up on them); return the largest number of steps until a cycle is reached.
+def depth_of(successors, colours):  # type: ignore[no-untyped-def]
+    """Return the largest number of steps until a knowledge cycle is reached; its states have colours above 1.
 
     Without the cycles the automaton is a directed acyclic graph: its states are passed in topological order.
     """
     count = len(successors)
-    for state in range(count):
-        colours[state] = 1
-    for cycle in range(len(anchors)):
-        state = anchors[cycle]
-        while colours[state] == 1:
-            colours[state] = cycle + 2
-            state = max(successors[state, 0], successors[state, 1])
     waiting = np.zeros(count, dtype=np.int32)
     for state in range(count):
         if colours[state] == 1:

@@ -1,7 +1,7 @@
 """`FilterTable`: an automaton as a filter, with a colour for each state (definitions 8 and 9 of Alam et al. 2017)."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -26,10 +26,13 @@ class FilterTable:
         In which environments, as bits, uint64 of shape (states + 1,); 0 in the trap.
     """
 
-    successors: npt.NDArray[np.int32] = field(repr=False)
-    colours: npt.NDArray[np.int32] = field(repr=False)
-    uncertainty: npt.NDArray[np.int64] = field(repr=False)
-    environments: npt.NDArray[np.uint64] = field(repr=False)
+    successors: npt.NDArray[np.int32]
+    colours: npt.NDArray[np.int32]
+    uncertainty: npt.NDArray[np.int64]
+    environments: npt.NDArray[np.uint64]
+
+    def __repr__(self) -> str:
+        return f"<FilterTable of {len(self) - 1} states and a trap, {self.cycles} knowledge cycles>"
 
     @classmethod
     def of(cls, automaton: Automaton) -> "FilterTable":

@@ -45,6 +45,9 @@ class LabelledGraph:
         if not self.starts:
             object.__setattr__(self, "starts", (0, count))
 
+    def __repr__(self) -> str:
+        return f"<LabelledGraph of {len(self)} vertices in {len(self.starts)} parts>"
+
     @classmethod
     def of(cls, successors: npt.ArrayLike, labels: npt.ArrayLike) -> "LabelledGraph":
         """Return a graph from the successor and the label of each vertex."""

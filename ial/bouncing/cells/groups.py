@@ -67,6 +67,9 @@ class PeriodicGroups:
     count: int
     bumping: npt.NDArray[np.bool_]
 
+    def __repr__(self) -> str:
+        return f"<PeriodicGroups: {self.count} of {len(self.group)} vertices>"
+
     @cached_property
     def periods(self) -> npt.NDArray[np.int64]:
         """The period of each group, int64 of shape (count,)."""

@@ -54,6 +54,9 @@ class BouncingModel(Model[Vertices, None, int]):
         self.graph = graph
         self._seen = np.zeros(len(graph), dtype=np.bool_)
 
+    def __repr__(self) -> str:
+        return f"<BouncingModel on {self.graph!r}>"
+
     def universe(self) -> Vertices:
         """Return all vertices."""
         return np.arange(len(self.graph), dtype=np.int32)

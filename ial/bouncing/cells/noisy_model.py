@@ -42,6 +42,9 @@ class NoisyModel(Model[Vertices, None, int]):
         self._seen = np.zeros(len(graph), dtype=np.bool_)
         self._out = np.empty(len(graph), dtype=np.int32)
 
+    def __repr__(self) -> str:
+        return f"<NoisyModel on {self.graph!r}>"
+
     def universe(self) -> Vertices:
         """Return all vertices in which a robot can start."""
         return np.arange(self.graph.first, dtype=np.int32)

@@ -43,6 +43,9 @@ class SetGraph:
     def __len__(self) -> int:
         return len(self.starts[0]) - 1
 
+    def __repr__(self) -> str:
+        return f"<SetGraph of {len(self)} vertices and {self.arcs} arcs>"
+
     @property
     def arcs(self) -> int:
         """How many arcs there are."""

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ial.bouncing.automata.cycle_walk import walk_cycles
 from ial.bouncing.cells.heading_classes import HeadingClasses
 from ial.bouncing.filters.bounce_filter import BounceFilter
 
@@ -39,13 +40,14 @@ class StatePlaces:
     @classmethod
     def of(cls, made: BounceFilter) -> "StatePlaces":
         """Return the places of a filter."""
-        kept, successors = made.places, made.table.successors
+        kept = made.places
+        cycles, steps = walk_cycles(made.table.successors, kept.anchors, made.table.trap)
         rows: dict[int, npt.NDArray[np.int32]] = {}
-        for cycle, anchor in enumerate(kept.anchors.tolist()):
-            state, found = anchor, kept.members[kept.starts[cycle] : kept.starts[cycle + 1]]
-            while state not in rows:
-                rows[state] = np.sort(found)
-                state, found = int(successors[state].min()), kept.following[found]  # the other arc leads to the trap, the last state
+        found = kept.members[:0]
+        for state in np.lexsort((steps, cycles))[np.count_nonzero(cycles < 0) :].tolist():
+            number = cycles[state]
+            found = kept.members[kept.starts[number] : kept.starts[number + 1]] if steps[state] == 0 else kept.following[found]
+            rows[state] = np.sort(found)
         counts = np.zeros(len(made.table), dtype=np.int64)
         for state, found in rows.items():
             counts[state] = len(found)

@@ -26,6 +26,9 @@ class FilterBank:
         self.tables = dict(tables)
         self.states = dict.fromkeys(self.tables, 0)
 
+    def __repr__(self) -> str:
+        return f"<FilterBank of {len(self.tables)}: {', '.join(self.tables)}>"
+
     def update(self, observation: int) -> list[str]:
         """Take an observation; return the environments in which the robot can be."""
         self.states = {name: self.tables[name].step(state, observation) for name, state in self.states.items()}

@@ -7,6 +7,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from ial.bouncing.automata.cycle_walk import walk_cycles
 from ial.bouncing.automata.table import FilterTable
 from ial.bouncing.cells.heading_classes import HeadingClasses
 from ial.bouncing.filters.cycle_places import CyclePlaces
@@ -51,16 +52,15 @@ class BounceFilter:
     places: CyclePlaces
     setting: Setting
 
+    def __repr__(self) -> str:
+        return (
+            f"<BounceFilter of {len(self.table) - 1} states and {self.table.cycles} knowledge cycles for {', '.join(self.setting.names)}>"
+        )
+
     @cached_property
     def _steps(self) -> npt.NDArray[np.int64]:
         """How many steps each state stands behind the anchor of its cycle."""
-        steps = np.full(len(self.table), -1, dtype=np.int64)
-        for anchor in self.places.anchors.tolist():
-            state, step = anchor, 0
-            while steps[state] < 0:
-                steps[state] = step
-                state, step = int(self.table.successors[state].min()), step + 1  # the other arc leads to the trap, the last state
-        return steps
+        return walk_cycles(self.table.successors, self.places.anchors, self.table.trap)[1]
 
     @cached_property
     def _classes(self) -> HeadingClasses:

@@ -42,6 +42,9 @@ class CyclePlaces:
     starts: npt.NDArray[np.int64]
     members: IntArray
 
+    def __repr__(self) -> str:
+        return f"<CyclePlaces: {len(self.row)} periodic vertices, {len(self.anchors)} knowledge cycles>"
+
     @classmethod
     def of(cls, automaton: Automaton, maps: Sequence[CellMap]) -> "CyclePlaces":
         """Return the places of an automaton that was made from the union of these maps."""

@@ -30,6 +30,9 @@ class InformationSets:
     behind: npt.NDArray[np.int64]
     elapsed: npt.NDArray[np.int64]
 
+    def __repr__(self) -> str:
+        return f"<InformationSets: {len(self)}>"
+
     @classmethod
     def everything(cls, graph: LabelledGraph) -> "InformationSets":
         """Return the one set of a robot that knows nothing."""

@@ -105,6 +105,9 @@ class Phase:
     graph: LabelledGraph
     final: npt.NDArray[np.int32]
 
+    def __repr__(self) -> str:
+        return f"<Phase on {self.graph!r}>"
+
     @classmethod
     def of(cls, graph: LabelledGraph) -> "Phase":
         """Return the phase of a cell map."""

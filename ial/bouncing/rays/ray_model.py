@@ -109,6 +109,9 @@ class RayModel(Model[RaySet, None, int]):
         if region is not None:
             self._region = [Interval(region[side] - origin[side], region[side + 2] - origin[side]) for side in (0, 1)]
 
+    def __repr__(self) -> str:
+        return f"<RayModel among {len(self.walls)} walls, {self.bounds}>"
+
     def universe(self) -> RaySet:
         """Return every piece of wall that the robot can come to first, from wherever it may be, in a heading it may have."""
         cells = [(low, high) for low, high in self._headings] or [(0.0, TWO_PI_UPPER)]

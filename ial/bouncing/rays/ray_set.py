@@ -38,6 +38,9 @@ class RaySet:
     def __len__(self) -> int:
         return len(self.walls)
 
+    def __repr__(self) -> str:
+        return f"<RaySet of {len(self)} pieces>"
+
     def only(self, kept: npt.NDArray[np.bool_] | npt.NDArray[np.int64]) -> "RaySet":
         """Return some of the pieces."""
         return RaySet(self.walls[kept], self.lower[kept], self.upper[kept], self.steps[kept], self.arriving[kept], self.reach[kept])

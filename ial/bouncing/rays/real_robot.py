@@ -102,6 +102,10 @@ class RealRobot:
             if not self._is_free(self.x, self.y):
                 raise ConfigError(f"the robot cannot start at ({float(start[0]):g}, {float(start[1]):g}); give a free place")
 
+    def __repr__(self) -> str:
+        x, y, turn = self.pose
+        return f"<RealRobot at x {float(x):g} m, y {float(y):g} m, heading {float(360 * turn):g}°>"
+
     def _free_place(self, environment: Environment) -> tuple[int, int]:
         x0, y0, x1, y1 = map(_whole, environment.bounds)
         for _ in range(_MOST_TRIES):

@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 import typer
 
-from ial.cli.shell.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, Overwrite, ScanTopics, Semantics, pose_of
+from ial.cli.shell.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, Overwrite, ScanTopics, Semantics
 from ial.cli.shell.out_folder import stamped_folder
 from ial.cli.shell.outputs import check_folder
 from ial.cli.shell.terminal import progress, remark, say, say_json, shown
@@ -47,7 +47,7 @@ def bounds(
         raise ConfigError(f"no map that {recording} belongs to; give --map MAP: a map.yaml, or the recording itself if it holds the map")
     from ial.cli.lidar.bounds_report import doubts, lines
     from ial.cli.lidar.config_file import resolve
-    from ial.cli.lidar.job import Inputs
+    from ial.cli.shell.inputs import Inputs
     from ial.datasets.trajectory import read_tum
     from ial.lidar.configuration.config_record import config_record, config_yaml
     from ial.results.lidar.failure_picture import draw_failures
@@ -57,10 +57,10 @@ def bounds(
 
     resolved = resolve(config, settings or ())
     folder_path = out or stamped_folder("bounds-" + ("sample" if recording is None else recording.name))
-    inputs = Inputs(recording, map_path, scan_topic or (), odom_topic, pose_of(laser_pose), semantics, map_topic)
+    inputs = Inputs(recording, map_path, scan_topic, odom_topic, laser_pose, semantics, map_topic)
     replaces = check_folder(folder_path, _FILES, [*inputs.paths, config, truth], overwrite)
     with ResultFolder(folder_path) as folder:
-        source, grid = inputs.open()
+        source, grid = inputs.source(), inputs.grid()
         survey = BoundsSurvey(grid, resolved)
         if truth is None:
             pairs = own_poses(source, grid, resolved, start, stop, every)

@@ -1,28 +1,23 @@
 """`Job`: what `ial localize` was asked to do, and the doing of it."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ial.cli.shell.inputs import Inputs
 from ial.cli.shell.terminal import progress
 from ial.contractors.boxes import Boxes
 from ial.contractors.threads import get_threads
-from ial.datasets.opening import open_recording
 from ial.datasets.recording import Recording
-from ial.datasets.sample import sample_map_path, sample_recording_path
 from ial.datasets.trajectory import read_tum
 from ial.errors import ConfigError
 from ial.lidar.configuration.config import LocalizerConfig
 from ial.lidar.configuration.config_record import config_yaml
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
-from ial.maps.grids.loading import load_map
-from ial.maps.grids.map_metadata import Semantics
 from ial.maps.grids.occupancy_grid import OccupancyGrid
-from ial.pose import Pose
 from ial.results.lidar.enclosures import EnclosuresFile
 from ial.results.lidar.events import EventsFile
 from ial.results.lidar.picture import Picture
@@ -35,46 +30,6 @@ from ial.study.reference import TruthFrame
 
 FILES = ("summary.json", "config.yaml", "enclosures.jsonl", "events.jsonl", "picture.png", "result.mcap", "trajectory.tum")
 """What a run writes, its record first."""
-
-
-@dataclass(frozen=True)
-class Inputs:
-    """Where the recording and the map are, and how to read them.
-
-    Parameters
-    ----------
-    recording, map_path
-        Their paths; the embedded sample and its map if both are None.
-    scan_topics, odom_topic, laser_pose
-        As in `open_recording`.
-    semantics, map_topic
-        As in `load_map`.
-    """
-
-    recording: Path | None = None
-    map_path: Path | None = None
-    scan_topics: Sequence[str] = ()
-    odom_topic: str | None = None
-    laser_pose: Pose | None = None
-    semantics: Semantics = "nav2"
-    map_topic: str | None = None
-
-    @property
-    def paths(self) -> tuple[Path, Path]:
-        """Where the recording and the map are."""
-        return self.recording or sample_recording_path(), self.map_path or sample_map_path()
-
-    def open(self) -> tuple[Recording, OccupancyGrid]:
-        """Open the recording and read the map.
-
-        Raises
-        ------
-        RecordingError, MapError
-            If one of them cannot be read.
-        """
-        path, map_path = self.paths
-        recording = open_recording(path, self.scan_topics, self.odom_topic, self.laser_pose)
-        return recording, load_map(map_path, self.semantics, self.map_topic)
 
 
 @dataclass(frozen=True)
@@ -121,7 +76,7 @@ class Job:
         """
         with ResultFolder(self.out) as folder:
             truth = None if self.truth is None else read_tum(self.truth)
-            recording, grid = self.inputs.open()
+            recording, grid = self.inputs.source(), self.inputs.grid()
             localizer = Localizer(grid, config=self.config, initial=self._region())
             containment = None if truth is None else Containment(localizer, truth, self.truth_frame, static=self.static)
             summary = Summary(recording, grid, self.config, self._options())
@@ -173,15 +128,15 @@ class Job:
 
     def _options(self) -> dict[str, Any]:
         """Return what was asked for, under the names of the options, as plain values that JSON can hold."""
-        inputs, at = self.inputs, self.inputs.laser_pose
+        inputs = self.inputs
         return {
             "recording": _text(inputs.recording),
             "map": _text(inputs.map_path),
             "map_semantics": inputs.semantics,
             "map_topic": inputs.map_topic,
-            "scan_topics": list(inputs.scan_topics),
+            "scan_topics": list(inputs.scan_topics or ()),
             "odom_topic": inputs.odom_topic,
-            "laser_pose": None if at is None else [at.x, at.y, at.theta],
+            "laser_pose": None if inputs.laser_pose is None else list(inputs.laser_pose),
             "static": self.static,
             "from": self.start,
             "to": self.stop,

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 import typer
 
 from ial.cli.lidar.report import report
-from ial.cli.shell.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, Overwrite, ScanTopics, Semantics, pose_of
+from ial.cli.shell.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, Overwrite, ScanTopics, Semantics
 from ial.cli.shell.out_folder import point_latest, stamped_folder
 from ial.cli.shell.outputs import check_folder
 from ial.cli.shell.terminal import remark, say, say_json, shown
@@ -73,11 +73,12 @@ def localize(
     if (initial is None) != (initial_radius is None):
         raise ConfigError("--initial X Y θ and --initial-radius M RAD belong together; give both")
 
-    from ial.cli.lidar.job import FILES, Inputs, Job
+    from ial.cli.lidar.job import FILES, Job
+    from ial.cli.shell.inputs import Inputs
     from ial.contractors.threads import set_threads
 
     set_threads(threads)
-    inputs = Inputs(recording, map_path, scan_topic or (), odom_topic, pose_of(laser_pose), semantics, map_topic)
+    inputs = Inputs(recording, map_path, scan_topic, odom_topic, laser_pose, semantics, map_topic)
     folder = out or stamped_folder("sample" if recording is None else str(recording))
     job = Job(inputs, resolved, folder, start, stop, every, static, truth, truth_frame, initial, initial_radius)
     replaces = check_folder(folder, FILES, [*inputs.paths, config, truth], overwrite)

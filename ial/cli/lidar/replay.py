@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from ial.cli.shell.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, ScanTopics, Semantics, pose_of
+from ial.cli.shell.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, ScanTopics, Semantics
 from ial.cli.shell.terminal import say, say_json
 from ial.errors import ConfigError
 
@@ -38,7 +38,7 @@ def replay(
     if deadline is not None and not 0.0 < deadline < float("inf"):
         raise ConfigError(f"--deadline {deadline:g}: give a number of seconds above 0")
     from ial.cli.lidar.config_file import resolve
-    from ial.cli.lidar.job import Inputs
+    from ial.cli.shell.inputs import Inputs
     from ial.contractors.threads import set_threads
     from ial.lidar.localizer import Localizer
     from ial.lidar.warming import warm
@@ -46,7 +46,8 @@ def replay(
 
     resolved = resolve(config, settings or (), max_seconds=deadline)
     set_threads(threads)
-    source, grid = Inputs(recording, map_path, scan_topic or (), odom_topic, pose_of(laser_pose), semantics, map_topic).open()
+    inputs = Inputs(recording, map_path, scan_topic, odom_topic, laser_pose, semantics, map_topic)
+    source, grid = inputs.source(), inputs.grid()
     warm(resolved)
     outcome = replay(source, Localizer(grid, config=resolved), speed if realtime else None)
     latencies = outcome.latencies

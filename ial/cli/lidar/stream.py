@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ial.errors import ConfigError
-from ial.pose import Pose
 
 SUMMARY = "Localize while odometry and scans arrive as JSON lines on standard input; `ial convert --jsonl` makes such lines."
 
@@ -28,19 +27,18 @@ def stream(arguments: Sequence[str]) -> None:
     _check_outputs(chosen, state)
     from ial.cli.lidar.config_file import resolve
     from ial.cli.lidar.streaming import Streaming
+    from ial.cli.shell.inputs import Inputs
     from ial.contractors.threads import set_threads
 
     set_threads(chosen.threads)
     Streaming(
-        recording=chosen.recording,
-        map_path=chosen.map,
+        inputs=Inputs(
+            chosen.recording, chosen.map, laser_pose=chosen.laser_pose, semantics=chosen.map_semantics, map_topic=chosen.map_topic
+        ),
         config=resolve(chosen.config, chosen.set, max_seconds=chosen.deadline),
         out=chosen.out,
         state=state,
         overwrite=chosen.overwrite,
-        laser_pose=None if chosen.laser_pose is None else Pose(*chosen.laser_pose),
-        semantics=chosen.map_semantics,
-        map_topic=chosen.map_topic,
     ).run()
 
 

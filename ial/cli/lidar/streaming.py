@@ -12,8 +12,8 @@ from types import FrameType, TracebackType
 from typing import Any, BinaryIO
 
 from ial.cli.lidar.answer_file import AnswerFile
+from ial.cli.shell.inputs import Inputs
 from ial.cli.shell.terminal import remark
-from ial.datasets.opening import open_recording
 from ial.datasets.recording import Recording
 from ial.datasets.scan_stream import ScanStream
 from ial.errors import OutputError
@@ -23,9 +23,6 @@ from ial.lidar.latencies import Latencies
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
 from ial.lidar.warming import warm
-from ial.maps.grids.loading import load_map
-from ial.maps.grids.map_metadata import Semantics
-from ial.pose import Pose
 from ial.results.lidar.enclosures import enclosure_line
 
 
@@ -73,10 +70,8 @@ class Streaming:
 
     Parameters
     ----------
-    recording
-        A recording to read; standard input if there is none.
-    map_path, semantics, map_topic
-        As in `load_map`.
+    inputs
+        The recording, standard input if it names none, and the map.
     config
         The configuration of the localizer.
     out
@@ -85,19 +80,13 @@ class Streaming:
         The file of the checkpoint, if one is kept.
     overwrite
         Whether a run that begins may replace the file to write to.
-    laser_pose
-        As in `open_recording`.
     """
 
-    recording: Path | None
-    map_path: Path
+    inputs: Inputs
     config: LocalizerConfig
     out: Path | None = None
     state: Path | None = None
     overwrite: bool = False
-    laser_pose: Pose | None = None
-    semantics: Semantics = "nav2"
-    map_topic: str | None = None
 
     def run(self) -> None:
         """Write one line for each scan until the input ends, or the process is asked to end.
@@ -112,7 +101,7 @@ class Streaming:
         vanishing = 0
         with ExitStack() as stack:
             ending = stack.enter_context(_Ending())
-            localizer = Localizer(load_map(self.map_path, self.semantics, self.map_topic), config=self.config)
+            localizer = Localizer(self.inputs.grid(), config=self.config)
             checkpoint = None if self.state is None else Checkpoint.load(self.state, localizer)
             if checkpoint is not None:
                 localizer.resume(checkpoint.poses, same_start=True)
@@ -140,9 +129,9 @@ class Streaming:
         _close(source, statuses, vanishing, times)
 
     def _source(self, ending: _Ending) -> Recording:
-        if self.recording is not None:
-            return open_recording(self.recording, laser_pose=self.laser_pose)
-        return ScanStream(ending.lines(sys.stdin.buffer), "standard input", self.laser_pose)
+        if self.inputs.recording is not None:
+            return self.inputs.source()
+        return ScanStream(ending.lines(sys.stdin.buffer), "standard input", self.inputs.mounting)
 
     def _out(self, checkpoint: Checkpoint | None) -> AnswerFile | None:
         """Return the file to write to, which is the one that the checkpoint belongs to; None for standard output."""

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from ial.cli.shell.options import ConfigPath, Json, LaserPose, OdomTopic, Overwrite, ScanTopics, Semantics, pose_of
+from ial.cli.shell.options import ConfigPath, Json, LaserPose, OdomTopic, Overwrite, ScanTopics, Semantics
 from ial.cli.shell.outputs import check_outputs
 from ial.cli.shell.terminal import progress, say, say_json
 from ial.errors import ConfigError
@@ -38,16 +38,15 @@ def where(
         raise ConfigError("no map to localize in; give --map once for each map")
     from ial.cli.lidar.config_file import resolve
     from ial.cli.lidar.where_report import Lines, named
-    from ial.datasets.opening import open_recording
+    from ial.cli.shell.inputs import Inputs
     from ial.datasets.recording import steps
-    from ial.datasets.sample import sample_recording_path
     from ial.lidar.atlas import Atlas
     from ial.maps.grids.loading import load_map
 
-    path = recording or sample_recording_path()
-    check_outputs([] if out is None else [out], [path, *maps, config], overwrite)
+    inputs = Inputs(recording, None, scan_topic, odom_topic, laser_pose)
+    check_outputs([] if out is None else [out], [inputs.paths[0], *maps, config], overwrite)
     resolved = resolve(config, settings or ())
-    source = open_recording(path, scan_topic or (), odom_topic, pose_of(laser_pose))
+    source = inputs.source()
     atlas = Atlas({name: load_map(path, semantics) for name, path in named(maps).items()}, resolved)
     with Lines(out) as lines:
         chosen = steps(source, resolved.bounds.motion, start, stop, every, no_return=resolved.free_space.no_return)

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from ial.cli.shell.options import LaserPose, OdomTopic, Overwrite, ScanTopics, pose_of
+from ial.cli.shell.options import LaserPose, OdomTopic, Overwrite, ScanTopics
 from ial.cli.shell.outputs import STDOUT, check_outputs, check_places
 from ial.cli.shell.terminal import remark, say
 
@@ -28,20 +28,20 @@ def convert(
     overwrite: Overwrite = False,
 ) -> None:
     """Write a recording as .mcap, .bag or JSON lines; localizing that gives the same enclosures, bit for bit."""
+    from ial.cli.shell.inputs import Inputs
     from ial.datasets.conversion import convert, convert_to_lines
-    from ial.datasets.opening import open_recording
-    from ial.datasets.sample import sample_recording_path
     from ial.errors import OutputError
 
     if (target is None) == (lines is None):
         raise OutputError("one file is written: give RECORDING OUT for a bag, or --jsonl FILE for JSON lines")
-    path = recording or sample_recording_path()
+    inputs = Inputs(recording, None, scan_topic, odom_topic, laser_pose)
+    path, _ = inputs.paths
     file = target or lines
     if file is None or str(lines) == "-":
         check_places([STDOUT], [path])
     else:
         check_outputs([file], [path], overwrite)
-    source = open_recording(path, scan_topic or (), odom_topic, pose_of(laser_pose))
+    source = inputs.source()
     if target is not None:
         count = convert(source, target)
     elif str(lines) == "-":

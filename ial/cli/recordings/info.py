@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from ial.cli.shell.options import Json, LaserPose, OdomTopic, RecordingPath, ScanTopics, pose_of
+from ial.cli.shell.options import Json, LaserPose, OdomTopic, RecordingPath, ScanTopics
 from ial.cli.shell.terminal import out, remark, say, say_json
 
 if TYPE_CHECKING:
@@ -22,9 +22,9 @@ def info(
 
     The exit status is 2 if something stands in the way of localizing with it.
     """
-    from ial.datasets.opening import open_recording
+    from ial.cli.shell.inputs import Inputs
 
-    found = open_recording(recording, scan_topic or (), odom_topic, pose_of(laser_pose)).info()
+    found = Inputs(recording, None, scan_topic, odom_topic, laser_pose).source().info()
     if as_json:
         say_json(found.as_dict())
     else:

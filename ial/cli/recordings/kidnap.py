@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ial.cli.shell.options import LaserPose, OdomTopic, Overwrite, RecordingPath, ScanTopics, pose_of
+from ial.cli.shell.options import LaserPose, OdomTopic, Overwrite, RecordingPath, ScanTopics
 from ial.cli.shell.outputs import check_outputs
 from ial.cli.shell.terminal import say
 
@@ -28,16 +28,16 @@ def kidnap(
     overwrite: Overwrite = False,
 ) -> None:
     """Write a recording in which the robot is carried from place to place while odometry and clock go on as if nothing happened."""
+    from ial.cli.shell.inputs import Inputs
     from ial.datasets.conversion import convert
     from ial.datasets.kidnapping import kidnap
-    from ial.datasets.opening import open_recording
     from ial.datasets.trajectory import read_tum, write_tum
 
     jumps = [_parsed(text) for text in at]
     beside = target.with_suffix(".tum")
     check_outputs([target] if truth is None else [target, beside], [recording, truth], overwrite)
     reference = None if truth is None else read_tum(truth)
-    kidnapped, moved = kidnap(open_recording(recording, scan_topic or (), odom_topic, pose_of(laser_pose)), jumps, reference)
+    kidnapped, moved = kidnap(Inputs(recording, None, scan_topic, odom_topic, laser_pose).source(), jumps, reference)
     count = convert(kidnapped, target)
     say(f"{count} scans written to {target}, {len(jumps)} {'kidnapping' if len(jumps) == 1 else 'kidnappings'}")
     if moved is not None:

@@ -16,10 +16,10 @@ def map_info(
     as_json: Json = False,
 ) -> None:
     """Say what a map holds: size, resolution, origin, and its free, occupied and unknown cells."""
-    from ial.maps.grids.loading import load_map
+    from ial.cli.shell.inputs import Inputs
     from ial.maps.grids.occupancy_grid import check_usable
 
-    grid = load_map(path, semantics, map_topic)
+    grid = Inputs(map_path=path, semantics=semantics, map_topic=map_topic).grid()
     found = grid.describe()
     if as_json:
         say_json(found)

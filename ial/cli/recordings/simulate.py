@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from ial.cli.shell.options import ConfigPath, LaserPose, MapTopic, Overwrite, Semantics, pose_of
+from ial.cli.shell.options import ConfigPath, LaserPose, MapTopic, Overwrite, Semantics
 from ial.cli.shell.outputs import check_outputs
 from ial.cli.shell.terminal import say, shown
 from ial.errors import ConfigError
@@ -34,6 +34,7 @@ def simulate(
 ) -> None:
     """Drive a robot at random through a map and record it; errors stay within bounds, those of the odometry within the configured ones."""
     from ial.cli.lidar.config_file import resolve
+    from ial.cli.shell.inputs import Inputs
     from ial.datasets.conversion import convert
     from ial.datasets.scan import Mounting
     from ial.datasets.simulator import Lidar, SensorErrors
@@ -41,7 +42,6 @@ def simulate(
     from ial.datasets.trajectory import write_tum
     from ial.datasets.walk import random_walk
     from ial.keys.reading import read
-    from ial.maps.grids.loading import load_map
 
     sizes = {"view-rad": view_rad, "range-max-m": range_max_m, "step-m": step_m, "turn-rad": turn_rad, "period-s": period_s}
     for name, value in sizes.items():
@@ -50,8 +50,9 @@ def simulate(
     truth = out.with_suffix(".tum")
     check_outputs([out, truth], [map_path, config], overwrite)
     bounds = resolve(config).bounds.motion
-    grid = load_map(map_path, semantics, map_topic)
-    at = pose_of(laser_pose)
+    inputs = Inputs(map_path=map_path, laser_pose=laser_pose, semantics=semantics, map_topic=map_topic)
+    grid = inputs.grid()
+    at = inputs.mounting
     mounting = Mounting() if at is None else Mounting(at.x, at.y, at.theta)
     lidar = Lidar(beams, -0.5 * view_rad, view_rad / (beams - 1), range_max=range_max_m, mounting=mounting)
     given = {"range_error_m": range_error_m, "bearing_error_rad": bearing_error_rad, "outliers": outliers}

@@ -5,8 +5,6 @@ from typing import Annotated, Literal
 
 import typer
 
-from ial.pose import Pose
-
 RecordingPath = Annotated[
     Path, typer.Argument(metavar="RECORDING", help="A ROS 1 .bag, a ROS 2 folder, .db3 or .mcap, or a CARMEN log (plain or .gz).")
 ]
@@ -28,8 +26,3 @@ MapTopic = Annotated[str | None, typer.Option(metavar="TOPIC", help="The map's t
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout.")]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace files that exist; what the command reads is never replaced.")]
 ConfigPath = Annotated[Path | None, typer.Option("--config", metavar="FILE", help="A YAML file with the configuration.")]
-
-
-def pose_of(numbers: tuple[float, float, float] | None) -> Pose | None:
-    """Return the pose that an option gives as three numbers."""
-    return None if numbers is None else Pose(*numbers)

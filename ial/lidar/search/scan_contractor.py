@@ -119,6 +119,9 @@ class ScanContractor:
         self.occupied = occupied
         self._most = min(beams.outliers, len(beams.ends))  # of the beams that end somewhere; those without return say nothing here
 
+    def __repr__(self) -> str:
+        return f"<ScanContractor of {len(self.beams.ends)} beams, {self._most} of which may be bad>"
+
     def fits(self, boxes: Boxes) -> npt.NDArray[np.bool_]:
         """Return in which boxes a consistent pose cannot be excluded, shape (n,); headings may have any turn.
 

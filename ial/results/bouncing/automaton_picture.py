@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 
+from ial.bouncing.automata.cycle_walk import walk_cycles
 from ial.bouncing.automata.table import FilterTable
 from ial.errors import FilterError
 from ial.results.bouncing.ground import BRIGHT
@@ -162,11 +163,9 @@ def _topological(arcs: list[list[int]], colours: list[int]) -> list[int]:
 
 def _ring(table: FilterTable, colour: int, places: FloatArray, centre: tuple[float, float], radius: float) -> None:
     """Place the states of a cycle around a centre, the first one at the left."""
-    first = state = int(np.flatnonzero(table.colours == colour)[0])
-    ring: list[int] = []
-    while not ring or state != first:
-        ring.append(state)
-        state = int(table.successors[state].min())  # the other arc leads to the trap, the last state
+    first = np.flatnonzero(table.colours == colour)[:1].astype(np.int32)
+    cycle, steps = walk_cycles(table.successors, first, table.trap)
+    ring = np.argsort(steps)[np.count_nonzero(cycle < 0) :]
     angles = math.pi - 2.0 * math.pi * np.arange(len(ring)) / len(ring)
     places[ring] = np.column_stack([centre[0] + radius * np.cos(angles), centre[1] + radius * np.sin(angles)])
 

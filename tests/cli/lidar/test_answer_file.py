@@ -10,6 +10,7 @@ import pytest
 
 from ial.cli.lidar.answer_file import AnswerFile
 from ial.cli.lidar.streaming import Streaming
+from ial.cli.shell.inputs import Inputs
 from ial.datasets.conversion import convert_to_lines
 from ial.datasets.sample import sample_map_path, sample_recording
 from ial.errors import OutputError
@@ -36,7 +37,7 @@ def expected(lines: list[bytes], tmp_path_factory: pytest.TempPathFactory) -> li
     """What an uninterrupted run over four scans writes."""
     fed, out = (tmp_path_factory.mktemp("whole") / name for name in ("fed.jsonl", "out.jsonl"))
     fed.write_bytes(b"".join(lines[:8]))
-    Streaming(fed, sample_map_path(), LocalizerConfig(), out).run()
+    Streaming(Inputs(fed, sample_map_path()), LocalizerConfig(), out).run()
     written = out.read_bytes().splitlines(keepends=True)
     assert len(written) == 4
     return written

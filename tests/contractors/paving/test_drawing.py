@@ -11,6 +11,7 @@ from matplotlib.collections import PolyCollection
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.paving.drawing import draw
+from ial.contractors.paving.paving import Paving
 
 
 @pytest.fixture
@@ -80,3 +81,17 @@ def test_an_unbounded_box_is_refused_only_along_the_drawn_axes(ax: Axes) -> None
 def test_matplotlib_is_loaded_only_to_draw() -> None:
     code = "import sys, ial.contractors.paving.paver, ial.contractors.paving.drawing; sys.exit('matplotlib' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_a_notebook_shows_a_paving_and_leaves_open_figures_alone(ax: Axes) -> None:
+    before = pyplot.get_fignums()
+    for paving in (Paving(Boxes.of([(0, 1), (0, 1)]), Boxes.none(2)), Paving(Boxes.none(2), Boxes.none(2))):
+        shown = paving._repr_png_()
+        assert (shown is not None and shown.startswith(b"\x89PNG")) is bool(len(paving.boxes))
+    assert pyplot.get_fignums() == before
+    assert pyplot.gca() is ax
+
+
+@pytest.mark.parametrize("box", [[(0, 1)], [(0, 1), (0, np.inf)]])
+def test_a_notebook_shows_the_text_of_what_cannot_be_drawn(box: list[tuple[float, float]]) -> None:
+    assert Paving(Boxes.of(box), Boxes.none(len(box)))._repr_png_() is None
