@@ -10,6 +10,7 @@ from typing import Any
 import numba
 from numba.core.ccallback import CFunc
 from numba.core.dispatcher import Dispatcher
+from numba.extending import intrinsic as numba_intrinsic
 
 from ial.contractors.interpreter import INTERPRETED, InterpretedCallback, interpreted
 from ial.contractors.kernel_cache import KernelCache
@@ -72,7 +73,7 @@ def intrinsic(python: Callable[..., Any]) -> Callable[[Callable[..., Any]], Any]
     def decorate(writer: Callable[..., Any]) -> Any:
         if INTERPRETED:
             return interpreted(python)
-        compiled = numba.extending.intrinsic(writer)
+        compiled = numba_intrinsic(writer)
         compiled.py_func = python
         return compiled
 

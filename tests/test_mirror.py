@@ -31,6 +31,8 @@ ACROSS = {  # tests of no single file, and what they are of
     "test_mirror.py": "this one",
     "test_packaging.py": "what is installed",
     "test_pages.py": "the pages of the documentation",
+    "test_readme.py": "types of the snippets of the README",
+    "test_repr.py": "what every public object says of itself",
     "test_tutorial.py": "examples in pages",
 }
 
@@ -53,7 +55,7 @@ UNMIRRORED = {  # tests that also stand for other files than their own; a file t
     "cli/lidar/test_where.py": ["where_report"],
     "cli/shell/test_outputs.py": ["../lidar/job", "out_folder"],
     "cli/test_bounce.py": ["bounce/build", "bounce/options", "bounce/outcome", "bounce/report", "bounce/run", "bounce/simulate"],
-    "cli/test_main.py": ["entry", "shell/options", "shell/outcome", "shell/terminal"],
+    "cli/test_main.py": ["entry", "shell/inputs", "shell/options", "shell/outcome", "shell/terminal"],
     "contractors/expressions/test_constraint.py": ["../combinators/family"],
     "contractors/expressions/test_expression.py": ["variables"],
     "contractors/combinators/test_combination.py": ["rows", "trivial_sets"],
