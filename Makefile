@@ -18,7 +18,7 @@ FAST = not slow and not data
 help:
 	@echo "make demo           localize the embedded recording; the result is in out/demo"
 	@echo "make test           run the tests (IAL_DATA and IAL_ITF1788 name the folders of the test data)"
-	@echo "make check          lint, types and the fast tests: in a minute"
+	@echo "make check          lint, types and the fast tests"
 	@echo "make interpreted    a part of the tests without compiled kernels, as a debugger sees them"
 	@echo "make coverage       which lines the tests reach"
 	@echo "make lint           ruff and mypy"
