@@ -68,7 +68,7 @@ class Answer:
 
 
 CRITERIA: list[tuple[str, Callable[[Answer], bool]]] = [
-    ("`vanishing`: volume below the leeway, or nothing left of it", lambda at: at.vanishing),
+    ("`vanishing`: volume below the leeway", lambda at: at.vanishing),
     ("volume below half the leeway", lambda at: at.volume < 0.5 * at.leeway),
     ("volume below twice the leeway", lambda at: at.volume < 2.0 * at.leeway),
     ("volume below 2 cells of the precision", lambda at: at.volume < 2.0 * at.cell),

@@ -113,6 +113,7 @@ def reached_from(module: str) -> set[str]:
     return reached
 
 
+@pytest.mark.slow
 def test_one_byte_in_a_file_changes_the_hashes_of_what_imports_it_however_deep_and_no_other(copy: Path, sources: KernelSources) -> None:
     before = hashes(sources)
     holding = {module: reached_from(module) for module in sources.files}

@@ -21,6 +21,7 @@ def copy(tmp_path: Path) -> PackageCopy:
     return PackageCopy(tmp_path)
 
 
+@pytest.mark.slow
 def test_code_is_kept_beside_the_users_own_code_and_compiled_once(copy: PackageCopy) -> None:
     assert copy.use() == (RESULT, [f"{MESSAGE}{copy.kept[0].parent})"])
     assert {file.parent.parent for file in copy.kept} == {copy.package / "contractors" / "__pycache__"}
@@ -28,6 +29,7 @@ def test_code_is_kept_beside_the_users_own_code_and_compiled_once(copy: PackageC
     assert copy.use() == (RESULT, [])
 
 
+@pytest.mark.slow
 def test_a_change_of_a_constant_in_a_file_without_kernels_is_noticed(copy: PackageCopy) -> None:
     copy.use()
     copy.constant.write_text("STEP = 2.00\n")
@@ -50,6 +52,7 @@ print(corner(np.full((1, 4), 4.5)))
 """
 
 
+@pytest.mark.slow
 def test_a_change_of_an_intrinsic_is_noticed(copy: PackageCopy) -> None:
     search = copy.package / "lidar" / "search"
     search.mkdir(parents=True)
@@ -65,6 +68,7 @@ def test_a_change_of_an_intrinsic_is_noticed(copy: PackageCopy) -> None:
     assert copy.use("import ial.corner")[0] == "7"
 
 
+@pytest.mark.slow
 def test_a_change_compiles_anew_what_follows_from_it_and_nothing_else(copy: PackageCopy) -> None:
     (copy.package / "other.py").write_text("from ial.contractors.kernels import kernel\n\n\n@kernel\ndef other(x):\n    return x\n")
     script = f"{USE}\nfrom ial.other import other\nother(1.0)\n"
@@ -80,6 +84,7 @@ def test_a_change_compiles_anew_what_follows_from_it_and_nothing_else(copy: Pack
     assert sorted(file.name.split("-")[0] for file in set(copy.kept) - before - {new}) == ["double", "step", "twice"]
 
 
+@pytest.mark.slow
 def test_two_processes_may_compile_at_once(copy: PackageCopy) -> None:
     processes = [copy.start() for _ in range(2)]
     results = [process.communicate(timeout=100) for process in processes]
@@ -87,6 +92,7 @@ def test_two_processes_may_compile_at_once(copy: PackageCopy) -> None:
     assert len(copy.kept) == 3
 
 
+@pytest.mark.slow
 def test_a_disk_that_takes_no_more_is_said_in_one_line(copy: PackageCopy) -> None:
     _, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     limit = f"import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (4096, {hard}))\n"
@@ -149,6 +155,7 @@ def is_kernel(function: ast.FunctionDef) -> bool:
     return any(isinstance(decorator, ast.Name) and decorator.id == "kernel" for decorator in function.decorator_list)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.name)
 def test_no_kernel_gives_up_ieee_semantics_or_runs_numbas_own_threads(file: Path) -> None:
     for node in ast.walk(tree(file)):
