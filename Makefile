@@ -64,7 +64,7 @@ smoke:
 wheel: .venv/.run
 	requirements/wheel
 
-interpreters:
+interpreters: .venv/.run
 	.ci/interpreters
 
 requirements: .venv/.pin
