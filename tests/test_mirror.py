@@ -79,7 +79,7 @@ UNMIRRORED = {  # tests that also stand for other files than their own; a file t
     "lidar/test_turns.py": ["search/pose_contractor"],
     "lidar/test_checkpoint.py": ["output_end"],
     "lidar/test_margins.py": ["evidence/directions"],
-    "lidar/test_symmetry.py": ["images", "../maps/grids/symmetry"],
+    "lidar/test_symmetry.py": ["images"],
     "cli/lidar/test_warm.py": ["../../lidar/warming"],
     "maps/grids/test_map_file.py": ["map_warning"],
     "maps/polygons/test_direction.py": ["exact_cosine"],

@@ -59,29 +59,6 @@ def test_a_feature_anywhere_or_an_empty_map_has_no_symmetry() -> None:
     assert symmetries_of(OccupancyGrid(np.full((5, 7), UNKNOWN, dtype=np.uint8), 0.1)) == ()
 
 
-def test_the_rotations_are_those_of_the_turned_arrays() -> None:
-    random = np.random.default_rng(1)
-    numbers = set()
-    for _ in range(300):
-        side, other = random.integers(1, 5, 2)
-        shape = (side, side if random.random() < 0.7 else other)
-        part = random.choice([FREE, OCCUPIED, UNKNOWN], shape, p=[0.4, 0.4, 0.2]).astype(np.uint8)
-        if random.random() < 0.5:
-            part = np.concatenate([part, np.rot90(part, 2)], axis=int(random.integers(2)))
-        cells = np.full((part.shape[0] + 3, part.shape[1] + 2), UNKNOWN, dtype=np.uint8)
-        cells[1:-2, 1:-1] = part
-        grid = OccupancyGrid(cells, 1.0)
-        rows, columns = (np.flatnonzero((cells != UNKNOWN).any(axis=axis)) for axis in (1, 0))
-        expected: list[float] = []
-        if len(rows):
-            inner = cells[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
-            expected = [0.5 * math.pi * turns for turns in (1, 2, 3) if np.array_equal(np.rot90(inner, turns), inner)]
-        found = symmetries_of(grid)
-        assert [each.theta % (2.0 * math.pi) for each in found] == pytest.approx(expected)
-        numbers.add(len(found))
-    assert numbers == {0, 1, 3}
-
-
 @pytest.mark.parametrize("turns", [2, 4])
 def test_all_images_stay_to_the_end(turns: int) -> None:
     grid = hall(turns)

@@ -92,6 +92,7 @@ def test_the_lemma_of_knowledge_cycles(index: int, automata: list[Automaton]) ->
     assert depth_first == set()
 
 
+@pytest.mark.many
 def test_the_lcm_counterexample_to_proposition_1_hits_the_cap_cleanly() -> None:
     graph = lcm_graph()
     with pytest.raises(FilterError, match="more than 7744 states; use larger cells"):

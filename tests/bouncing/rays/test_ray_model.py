@@ -21,6 +21,7 @@ from tests.bouncing.truth import extent, follow, holds_leg, holds_place, random_
 L_ROOM = Environment((Polygon(ring((0, 0), (9, 0), (9, 4), (5, 4), (5, 7), (0, 7))),))
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("first", range(100_000, 100_240, 24))
 def test_a_robot_with_real_geometry_is_never_lost(first: int) -> None:
     assert sum(follow(seed, 3).losses for seed in range(first, first + 24)) == 0

@@ -124,6 +124,7 @@ def hull_of_solutions(lower: list[float], upper: list[float]) -> tuple[FloatArra
     return (points.min(axis=0), points.max(axis=0)) if len(points) else None
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("seed", range(2))
 def test_no_narrower_box_would_do(seed: int) -> None:
     rng = np.random.default_rng(seed)

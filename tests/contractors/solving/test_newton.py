@@ -14,6 +14,7 @@ from ial.contractors.expressions.variables import variables
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.solving.newton import Newton
 from ial.contractors.solving.zeros import certify, zeros
+from tests.cases import cases
 
 INF = math.inf
 
@@ -122,6 +123,7 @@ def test_a_jump_is_no_zero() -> None:
     assert Newton(Function(x + 1, atan2(y, x) - (math.pi - 0.05))).step(Boxes.of([(-1.01, -0.99), (0.02, 0.09)]))[1].all()
 
 
+@pytest.mark.many
 def test_a_zero_on_the_border_of_the_box_is_undecided_and_one_beyond_is_not_found() -> None:
     x = variables("x")
     on = zeros(Function(x**2 - Interval(2, 3)), Boxes.of([(1.5, 3)]), 1e-3)  # the zero of some numbers in [2, 3] lies in the box
@@ -164,6 +166,7 @@ def test_random_polynomials_have_the_zeros_that_numpy_finds(seed: int) -> None:
         assert len(found.unique) == len(real)
 
 
+@pytest.mark.many
 @given(st.integers(0, 10**6))
 def test_no_zero_is_lost(seed: int) -> None:
     random = np.random.default_rng(seed)
@@ -196,7 +199,7 @@ def test_no_zero_is_lost(seed: int) -> None:
 def test_a_certified_box_holds_the_zero_that_mpmath_finds() -> None:
     random = np.random.default_rng(5)
     x, y, z = variables("x y z")
-    for _ in range(10):
+    for _ in range(cases(10, 1)):
         a, b, c = random.uniform(0.5, 1.5, 3).tolist()
         function = Function(a * x + 0.2 * sin(y) - 1, b * y + 0.1 * x * z - 0.5, c * z + 0.3 * cos(x) - log(2 + y**2))
         certificate = certify(function, Boxes.of([(-5, 5)] * 3))
