@@ -6,8 +6,8 @@ PYTEST_ARGS ?= --numprocesses auto --dist worksteal
 export PYTHON
 
 # The folders of the tests that run kernels. With NUMBA_DISABLE_JIT=1 these take few cases, and those that take many are left out.
-INTERPRETED = tests/test_lazy.py tests/contractors tests/maps tests/bouncing tests/membership tests/particles tests/lidar/evidence \
-    tests/lidar/search tests/datasets/test_motion_boxes.py
+INTERPRETED = tests/test_lazy.py tests/contractors tests/maps tests/membership tests/lidar/evidence tests/lidar/search \
+    tests/datasets/test_motion_boxes.py $(addprefix tests/bouncing/,automata cells exports filters planning)
 FAST = not slow and not data
 
 .PHONY: help demo test check interpreted coverage lint docs smoke wheel interpreters requirements clean
