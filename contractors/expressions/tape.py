@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes, FloatArray
-from ial.contractors.expressions.operation import LANES, Bounds, Operation, call
+from ial.contractors.expressions.operation import LANES, IntervalArrays, Operation, call
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
@@ -28,7 +28,7 @@ class Node(Protocol):
         ...
 
     @property
-    def bounds(self) -> Bounds | None:
+    def bounds(self) -> IntervalArrays | None:
         """The bounds of a constant: two arrays of one value, or of one for each row."""
         ...
 
@@ -45,18 +45,18 @@ class Node(Protocol):
 
 def ordered(outputs: Sequence[Node]) -> list[Node]:
     """Return all nodes that some outputs are made of, each once, operands before what uses them."""
-    found: dict[int, Node] = {}
+    nodes: dict[int, Node] = {}
     stack = [(node, False) for node in reversed(outputs)]
     while stack:
         node, visited = stack.pop()
-        if id(node) in found:
+        if id(node) in nodes:
             continue
         if visited or not node.operands:
-            found[id(node)] = node
+            nodes[id(node)] = node
         else:
             stack.append((node, True))
             stack.extend((operand, False) for operand in reversed(node.operands))
-    return list(found.values())
+    return list(nodes.values())
 
 
 class Tape:
@@ -78,7 +78,7 @@ class Tape:
         nodes = [node for node in outputs if not isinstance(node, Interval)]
         slots: dict[int, int] = {}  # from a node's identity to where its value stands
         known: dict[Any, int] = {}  # the same from what it computes
-        constants: list[Bounds] = []
+        constants: list[IntervalArrays] = []
         instructions: list[tuple[Operation, tuple[int, ...]]] = []
         order = ordered(nodes)
 
@@ -139,7 +139,7 @@ class Tape:
         """The smallest number of rows worth a thread of its own."""
         return max(LANES, _SHARED_STEPS // (1 + len(self._instructions)))
 
-    def evaluate(self, boxes: Boxes, members: int = 1) -> Bounds:
+    def evaluate(self, boxes: Boxes, members: int = 1) -> IntervalArrays:
         """Return the natural extension: bounds of every output on every box, each float64 of shape (n·members, outputs).
 
         Parameters

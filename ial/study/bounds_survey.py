@@ -158,5 +158,5 @@ class BoundsSurvey:
 def _quantiles(values: FloatArray) -> dict[str, float] | None:
     if not len(values):
         return None
-    found = {f"{share:g}": float(value) for share, value in zip(QUANTILES, np.quantile(values, QUANTILES), strict=True)}
-    return {**found, "max": float(values.max())}
+    quantiles = {f"{share:g}": float(value) for share, value in zip(QUANTILES, np.quantile(values, QUANTILES), strict=True)}
+    return {**quantiles, "max": float(values.max())}

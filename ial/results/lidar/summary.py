@@ -159,11 +159,11 @@ class Summary:
 
 def _versions() -> dict[str, str | None]:
     """Return the versions of the libraries that results depend on; None for one that is installed under another name."""
-    found: dict[str, str | None] = dict.fromkeys(_LIBRARIES)
+    versions: dict[str, str | None] = dict.fromkeys(_LIBRARIES)
     for name in _LIBRARIES:
         with contextlib.suppress(PackageNotFoundError):
-            found[name] = version(name)
-    return found
+            versions[name] = version(name)
+    return versions
 
 
 def _last(enclosure: Enclosure) -> dict[str, Any]:
