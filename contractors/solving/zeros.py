@@ -38,6 +38,10 @@ class Certificate:
     boxes: Boxes
     unique: npt.NDArray[np.bool_]
 
+    def __repr__(self) -> str:
+        zeros = f"one zero in {self.unique.sum()}, none in {self.none.sum()}, unknown of {self.unknown.sum()}"
+        return f"<Certificate of {len(self.boxes)} boxes: {zeros}>"
+
     @property
     def none(self) -> npt.NDArray[np.bool_]:
         """Which boxes are proved to hold no zero, shape (n,)."""

@@ -78,6 +78,9 @@ class LidarModel(ContractingModel[PoseSet, Motion | None, Beams]):
         most = _LAID_OUT_CELLS if config.max_seconds is None else max(64, int(_CELLS_PER_S * config.max_seconds))
         self._affordable = min(most, _LAID_OUT_CELLS, config.max_boxes)
 
+    def __repr__(self) -> str:
+        return f"<LidarModel in {self.grid}>"
+
     def universe(self) -> PoseSet:
         """Return every pose in the map."""
         return self._universe

@@ -57,6 +57,9 @@ class BoundsSurvey:
         self._kept: list[bool] = []
         self._previous: Pose | None = None
 
+    def __repr__(self) -> str:
+        return f"<BoundsSurvey of {self.scans} scans and {len(self._steps)} steps>"
+
     def add(self, step: Step, pose: Pose | None, *, beams: bool = True) -> None:
         """Take a scan and ``T_map_base`` of a reference, None where there is none; `beams` says whether its beams count, too.
 

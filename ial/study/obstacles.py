@@ -38,6 +38,9 @@ class Obstacles:
         self.mask = grid.mask(OCCUPIED)
         self._windows: dict[int, tuple[BoolArray, BoolArray]] = {}
 
+    def __repr__(self) -> str:
+        return f"<Obstacles: {np.count_nonzero(self.mask)} occupied cells of {self.resolution:g} m>"
+
     @functools.cached_property
     def _tree(self) -> cKDTree:
         return cKDTree((np.argwhere(self.mask)[:, ::-1] + 0.5) * self.resolution)

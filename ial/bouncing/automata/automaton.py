@@ -43,6 +43,9 @@ class KnowledgeCycles:
     def __len__(self) -> int:
         return len(self.anchors)
 
+    def __repr__(self) -> str:
+        return f"<KnowledgeCycles: {len(self)}, of {self.lengths.sum()} states>"
+
 
 @dataclass(frozen=True, eq=False)
 class Automaton:

@@ -64,6 +64,9 @@ class Summary:
         self.first_localized: int | None = None
         self.last: Enclosure | None = None
 
+    def __repr__(self) -> str:
+        return f"<Summary of {len(self._elapsed)} scans of {self._recording.name}: {self.statuses}>"
+
     @property
     def localized(self) -> bool:
         """Whether the robot was localized at any scan."""
