@@ -58,6 +58,8 @@ UNMIRRORED = {  # tests that also stand for other files than their own; a file t
     "cli/test_main.py": ["entry", "shell/inputs", "shell/options", "shell/outcome", "shell/terminal"],
     "contractors/expressions/test_constraint.py": ["../combinators/family"],
     "contractors/expressions/test_expression.py": ["variables"],
+    "contractors/expressions/test_functions.py": ["whole_exponent"],
+    "contractors/expressions/test_tape.py": ["machine"],
     "contractors/combinators/test_combination.py": ["rows", "trivial_sets"],
     "contractors/solving/test_newton.py": ["zeros"],
     "contractors/solving/test_problem.py": ["conflict", "propagation", "../expressions/function_family"],
