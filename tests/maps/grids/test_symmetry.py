@@ -24,7 +24,7 @@ def test_the_rotations_are_those_of_the_turned_arrays() -> None:
         if len(rows):
             inner = cells[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
             expected = [0.5 * math.pi * turns for turns in (1, 2, 3) if np.array_equal(np.rot90(inner, turns), inner)]
-        symmetries = symmetries(grid, (FREE,))
-        assert [each.theta % (2.0 * math.pi) for each in symmetries] == pytest.approx(expected)
-        numbers.add(len(symmetries))
+        rotations = symmetries(grid, (FREE,))
+        assert [each.theta % (2.0 * math.pi) for each in rotations] == pytest.approx(expected)
+        numbers.add(len(rotations))
     assert numbers == {0, 1, 3}
