@@ -8,9 +8,9 @@ from ial.contractors.groups import group_rows
 from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 from ial.lidar.evidence.end_points import relative_bounds
-from ial.lidar.margins import NEAR
 from ial.lidar.search.rectangle_indices import OFFSET, rectangle_indices
 from ial.lidar.search.scan_contractor import ScanContractor
+from ial.lidar.search.table_coordinates import in_cells
 from ial.maps.grids.cell_index import BORDER
 
 
@@ -26,10 +26,9 @@ def _walk(order, lower, upper, ends, directions, errors, q, map_error, resolutio
         row = order[at]
         if at == 0 or lower[row, 2] != lower[order[at - 1], 2] or upper[row, 2] != upper[order[at - 1], 2]:
             relative_bounds(lower[row, 2], upper[row, 2], ends, directions, errors, map_error, resolution, bounds)
-        xl, yl = lower[row, 0] / resolution, lower[row, 1] / resolution
-        xu, yu = upper[row, 0] / resolution, upper[row, 1] / resolution
+        xl, yl, xu, yu, near = in_cells(lower[row, 0], lower[row, 1], upper[row, 0], upper[row, 1], resolution, (0, 0))
         firsts[at] = tests
-        if not (min(xl, yl) >= -NEAR and max(xu, yu) <= NEAR):
+        if not near:
             continue
         failed = 0
         for i in range(len(ends)):

@@ -15,12 +15,11 @@ from ial.contractors.paving.clusters import Clusters, cluster
 from ial.contractors.threads import run
 from ial.lidar.evidence.beams import Beams
 from ial.lidar.evidence.end_points import relative_bounds
-from ial.lidar.margins import NEAR
 from ial.lidar.search.lattice import Lattice
 from ial.lidar.search.map_tables import Sections
 from ial.lidar.search.outer_faces import outer_faces
-from ial.lidar.search.rectangle_indices import OFFSET
 from ial.lidar.search.scan_contractor import fits
+from ial.lidar.search.table_coordinates import in_cells
 from ial.maps.grids.cell_index import BORDER, meets
 
 
@@ -88,11 +87,7 @@ def _reach(cell, outer, depth, evidence, q, grid, headings, stack, reached):  # 
             if not known[node]:
                 relative_bounds(tl, tu, ends, directions, errors, map_error, resolution, bounds[node])
                 known[node] = True
-            left, right = xl / resolution - origin[1], xu / resolution - origin[1]
-            below, above = yl / resolution - origin[0], yu / resolution - origin[0]
-            near = min(left, below) >= -NEAR and max(right, above) <= NEAR
-            left, below = left + OFFSET, below + OFFSET
-            right, above = right + (OFFSET + 1.0), above + (OFFSET + 1.0)
+            left, below, right, above, near = in_cells(xl, yl, xu, yu, resolution, origin)
             if near and not fits(left, below, right, above, bounds[node], q, flat, stride, row_limit, column_limit, failing):
                 continue
         if level == depth:

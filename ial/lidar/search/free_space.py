@@ -24,6 +24,7 @@ from ial.lidar.evidence.end_points import relative_bounds
 from ial.lidar.margins import MARGIN, NEAR
 from ial.lidar.search.bit_columns import BitColumns, read_bits
 from ial.lidar.search.rectangle_indices import OFFSET, rectangle_indices
+from ial.lidar.search.table_coordinates import in_cells
 from ial.maps.grids.cell_index import BORDER, CellIndex
 
 _STEEPEST = 0.55  # a ray runs along an axis if its cosine with it is above this at both ends of its interval
@@ -195,9 +196,8 @@ def _block_rows(start, stop, order, lower, upper, parts, hits, rays, grid, least
                 near = min(lasers[i, 0], lasers[i, 2]) >= -NEAR and max(lasers[i, 1], lasers[i, 3]) <= NEAR
                 if not near or theta_upper - theta_lower + 2.0 * turn > _WIDEST_TURN:
                     headings[i, :4] = 0.0  # along no axis: such a ray is never found to be blocked
-        xl, yl = lower[row, 0] / resolution - origin[1], lower[row, 1] / resolution - origin[0]
-        xu, yu = upper[row, 0] / resolution - origin[1], upper[row, 1] / resolution - origin[0]
-        if min(xl, yl) < -NEAR or max(xu, yu) > NEAR or theta_upper - theta_lower > _WIDEST_TURN:
+        xl, yl, xu, yu, near = in_cells(lower[row, 0], lower[row, 1], upper[row, 0], upper[row, 1], resolution, origin)
+        if not near or theta_upper - theta_lower > _WIDEST_TURN:
             continue
         box = (xl - MARGIN, yl - MARGIN, xu + MARGIN, yu + MARGIN)
         barred[:] = False

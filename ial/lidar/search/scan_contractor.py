@@ -12,9 +12,9 @@ from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 from ial.lidar.evidence.beams import Beams
 from ial.lidar.evidence.end_points import relative_bounds
-from ial.lidar.margins import NEAR
 from ial.lidar.search.narrowing import narrow
 from ial.lidar.search.rectangle_indices import OFFSET, rectangle_indices
+from ial.lidar.search.table_coordinates import in_cells
 from ial.maps.grids.cell_index import BORDER, CellIndex
 
 
@@ -25,6 +25,8 @@ def fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit, order
     A beam fails if the rectangle of its possible end points meets no occupied cell: four look-ups in the summed-area table. Beams are tried
     in an order, in which those that fail move to the front: from the next box the same will mostly fail.
     """
+    xl, yl = xl + OFFSET, yl + OFFSET
+    xu, yu = xu + (OFFSET + 1.0), yu + (OFFSET + 1.0)
     beams = len(bounds)
     failed = 0
     for at in range(beams):
@@ -63,12 +65,8 @@ def _test(start, stop, order, lower, upper, ends, directions, errors, q, map_err
             theta_lower = lower[row, 2]
             theta_upper = upper[row, 2]
             relative_bounds(theta_lower, theta_upper, ends, directions, errors, map_error, resolution, bounds)
-        xl, xu = lower[row, 0] / resolution - origin[1], upper[row, 0] / resolution - origin[1]
-        yl, yu = lower[row, 1] / resolution - origin[0], upper[row, 1] / resolution - origin[0]
-        near = min(xl, yl) >= -NEAR and max(xu, yu) <= NEAR  # elsewhere the indices would not be right, so the box is kept
-        xl, yl = xl + OFFSET, yl + OFFSET
-        xu, yu = xu + (OFFSET + 1.0), yu + (OFFSET + 1.0)
-        keep[row] = not near or fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit, beams)
+        xl, yl, xu, yu, near = in_cells(lower[row, 0], lower[row, 1], upper[row, 0], upper[row, 1], resolution, origin)
+        keep[row] = not near or fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit, beams)  # kept where nothing is known
 
 
 @kernel
@@ -79,9 +77,8 @@ def _narrow(start, stop, order, lower, upper, ends, directions, errors, q, map_e
     for at in range(start, stop):
         row = order[at]
         relative_bounds(lower[row, 2], upper[row, 2], ends, directions, errors, map_error, resolution, bounds)
-        xl, xu = lower[row, 0] / resolution - origin[1], upper[row, 0] / resolution - origin[1]
-        yl, yu = lower[row, 1] / resolution - origin[0], upper[row, 1] / resolution - origin[0]
-        if min(xl, yl) < -NEAR or max(xu, yu) > NEAR:
+        xl, yl, xu, yu, near = in_cells(lower[row, 0], lower[row, 1], upper[row, 0], upper[row, 1], resolution, origin)
+        if not near:
             continue
         x0, y0, x1, y1 = narrow(xl, yl, xu, yu, bounds, q, table, low, high)
         # The margin in `bounds` covers the rounding of a bound that has moved; one that has not keeps its bits.
