@@ -14,6 +14,7 @@ from ial.datasets.walk import random_walk
 from ial.lidar.configuration.config import Bounds, LocalizerConfig, Precision
 from ial.lidar.images import are_images
 from ial.lidar.localizer import Localizer
+from ial.lidar.pose_set import PoseSet
 from ial.lidar.run import localize
 from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
 from ial.maps.grids.symmetry import symmetries
@@ -190,7 +191,7 @@ def at(pose: Pose, half: float = 0.1) -> list[tuple[float, float]]:
     ],
 )
 def test_images_are_what_meets_one_to_one(boxes: Boxes, symmetries: tuple[Pose, ...], images: bool) -> None:
-    assert are_images(boxes, symmetries, 16.0) is images
+    assert are_images(PoseSet(boxes), symmetries, 16.0) is images
 
 
 def test_whatever_a_scan_leaves_of_a_symmetric_answer_the_images_of_the_truth_are_in_it() -> None:

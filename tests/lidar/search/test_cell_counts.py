@@ -32,7 +32,7 @@ class Case:
         mask = world.mask.repeat(split, axis=0).repeat(split, axis=1)
         self.occupied = CellIndex(mask, world.resolution / split)
         self.domain = CellIndex(np.ones_like(mask), world.resolution / split, compact=True)
-        self.lattice = Lattice(parts * self.occupied.resolution, float(random.choice([0.02, 0.2])), parts)
+        self.lattice = Lattice(parts * self.occupied.cells.resolution, float(random.choice([0.02, 0.2])), parts)
         at = np.array([world.pose.x, world.pose.y, world.pose.theta])
         around = random.uniform(0.0, 4.0, 3) * self.lattice.widths
         self.bitmaps = self.lattice.bitmaps(Boxes((at - around)[None], (at + random.uniform(0.0, 4.0, 3) * self.lattice.widths)[None]))

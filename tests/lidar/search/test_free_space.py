@@ -12,7 +12,7 @@ from ial.lidar.configuration.config import Bounds, FreeSpace, LocalizerConfig, P
 from ial.lidar.evidence.beams import scan_beams, select_beams
 from ial.lidar.localizer import Localizer
 from ial.lidar.search.bit_columns import BitColumns, read_bits
-from ial.lidar.search.free_space import blocked, count_blocked
+from ial.lidar.search.free_space import BlockingCells, blocked, count_blocked
 from ial.maps.grids.cell_index import CellIndex
 from ial.maps.grids.floor_plan import floor_plan
 from ial.maps.grids.occupancy_grid import FREE, OCCUPIED
@@ -28,7 +28,7 @@ NO_LASER_OFFSET = (0.0, 0.0, 0.0, 0.0)
 def is_blocked(mask: np.ndarray, box: tuple[float, ...], low: float, high: float, length: float, margin: float) -> bool:
     index, bits = CellIndex(mask, 1.0), BitColumns(mask)
     ray = (math.cos(low), math.sin(low), math.cos(high), math.sin(high), length)
-    return bool(blocked(box, NO_LASER_OFFSET, ray, margin, index.table, bits.upwards, bits.rightwards))
+    return bool(blocked(box, NO_LASER_OFFSET, ray, margin, BlockingCells(index.cells, bits.upwards, bits.rightwards)))
 
 
 def random_mask(random: np.random.Generator) -> np.ndarray:
