@@ -11,7 +11,7 @@ from ial.datasets.scan import LaserScan, Mounting
 from ial.lidar.configuration.config import Bounds, FreeSpace, LocalizerConfig, Precision
 from ial.lidar.evidence.beams import scan_beams, select_beams
 from ial.lidar.localizer import Localizer
-from ial.lidar.search.bit_columns import BitColumns, read_bits
+from ial.lidar.search.bit_columns import BitColumns
 from ial.lidar.search.free_space import blocked, count_blocked
 from ial.maps.grids.cell_index import CellIndex
 from ial.maps.grids.floor_plan import floor_plan
@@ -87,16 +87,6 @@ def test_a_wall_across_blocks_and_a_gap_does_not(turn: float) -> None:
     assert not is_blocked(wall, box, *seen, 38.0, 1.0)
     assert not is_blocked(wall & (np.abs(across) > 4.0), box, *seen, 60.0, 1.0)
     assert not is_blocked(wall, box, *(turn + math.pi + each for each in (-0.006, 0.006)), 60.0, 1.0)
-
-
-def test_bits_are_read_across_words_and_outside() -> None:
-    random = np.random.default_rng(0)
-    mask = random.random((3, 200)) < 0.5
-    lines = BitColumns(mask).rightwards
-    for first in [*range(-200, 320), -(10**9), 10**9]:
-        expected = [0 <= first + i < 200 and bool(mask[1, first + i]) for i in range(64)]
-        assert int(read_bits(lines, 1, first)) == sum(1 << i for i, each in enumerate(expected) if each)
-    assert int(read_bits(lines, -1, 0)) == int(read_bits(lines, 3, 0)) == 0
 
 
 def test_blocked_beams_and_beams_without_return_count_once_each() -> None:
