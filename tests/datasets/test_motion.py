@@ -60,6 +60,7 @@ def test_between_encloses_the_exact_difference(previous: Pose, now: Pose) -> Non
     assert (motion.upper - motion.lower < 1e-12).all()
 
 
+@pytest.mark.slow
 def test_between_encloses_the_exact_motion_of_recorded_quaternions() -> None:
     """Of any length; their headings are 2·atan2(z, w), to the last bit and beyond."""
     random = np.random.default_rng(8)
@@ -133,6 +134,7 @@ def test_unknown_absorbs_everything_and_is_the_full_circle() -> None:
         assert np.array_equal(motion.upper, unknown.upper)
 
 
+@pytest.mark.slow
 @given(poses, st.floats(0.0, 0.3), st.floats(0.0, 0.3), st.floats(0.0, 0.3), shares)
 def test_enclose_holds_what_the_formula_allows(
     delta: Pose, per_message: float, per_metre: float, per_radian: float, share: tuple[float, ...]

@@ -96,6 +96,7 @@ def test_several_lidars_follow_one_another_by_their_stamps(bag) -> None:  # type
         list(open_recording(bag.path, ["/front", "/rear"], laser_pose=Pose()).readings())
 
 
+@pytest.mark.slow
 def test_scans_of_two_lidars_may_have_one_stamp(bag, tmp_path: Path, canonical_steps) -> None:  # type: ignore[no-untyped-def]
     with bag:
         bag.mounting(child="front")

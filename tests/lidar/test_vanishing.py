@@ -123,6 +123,7 @@ def test_a_prediction_beside_the_truth_leaves_hardly_anything() -> None:
     assert [estimate.vanishing for _, estimate, _ in found] == [everywhere for _, _, everywhere in found]
 
 
+@pytest.mark.slow
 def test_answers_seldom_vanish_while_all_bounds_hold() -> None:
     found = list(drives(0.0))
     assert all(held for held, _, _ in found)

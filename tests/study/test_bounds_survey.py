@@ -46,6 +46,7 @@ def test_what_was_simulated_is_measured() -> None:
     assert (np.diff(table, axis=1) >= 0.0).all()
 
 
+@pytest.mark.slow
 def test_the_suggestion_holds() -> None:
     grid = floor_plan(12.0, 10.0, 0.05, 4)
     wrong = LocalizerConfig(bounds=Bounds(0.01, 0.0, 0.0, MotionBounds(ErrorBound(0.01, 0.01), ErrorBound(0.2, 0.2))))

@@ -11,6 +11,7 @@ from ial.maps.grids.floor_plan import floor_plan
 from ial.study.motion_fit import RecordedStep, fitted
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("every", [1, 4])
 def test_bounds_are_fitted_over_every_message(every: int) -> None:
     grid = floor_plan(12.0, 10.0, 0.05, 4)

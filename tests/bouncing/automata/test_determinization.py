@@ -28,6 +28,7 @@ def lcm_graph() -> LabelledGraph:
     return LabelledGraph.of(successors, labels)
 
 
+@pytest.mark.slow
 def test_the_lcm_counterexample_to_proposition_1_hits_the_cap_cleanly() -> None:
     graph = lcm_graph()
     with pytest.raises(FilterError, match="more than 7744 states; use larger cells"):

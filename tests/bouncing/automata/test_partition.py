@@ -1,4 +1,5 @@
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -16,6 +17,7 @@ def twin(successors: list[list[int]], initial: list[int]) -> list[int]:
     return blocks
 
 
+@pytest.mark.slow
 @given(st.data())
 def test_the_partition_is_that_of_moore(data: st.DataObject) -> None:
     count, letters = data.draw(st.integers(1, 14)), data.draw(st.integers(1, 3))

@@ -86,6 +86,7 @@ def expected(table: FilterTable, streams: list[list[int]]) -> list[list[int]]:
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("compiler", COMPILERS)
 @pytest.mark.parametrize("restart", [False, True])
 def test_c_steps_as_python_does(small: BounceFilter, compiler: str, restart: bool, tmp_path: Path) -> None:
@@ -102,6 +103,7 @@ def test_c_steps_as_python_does(small: BounceFilter, compiler: str, restart: boo
     assert bool((random[:, :-1] > random[:, 1:]).any()) == restart
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("keep", ["colours", "localized"])
 def test_minimized_filters_have_the_same_colours(corner: BounceFilter, keep: str, tmp_path: Path) -> None:
     exported = ExportedFilter.of(corner, keep)  # type: ignore[arg-type]

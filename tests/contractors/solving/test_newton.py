@@ -26,6 +26,7 @@ def test_a_jump_is_no_zero() -> None:
     assert Newton(Function(x + 1, atan2(y, x) - (math.pi - 0.05))).step(Boxes.of([(-1.01, -0.99), (0.02, 0.09)]))[1].all()
 
 
+@pytest.mark.slow
 @given(st.integers(0, 10**6))
 def test_no_zero_is_lost(seed: int) -> None:
     random = np.random.default_rng(seed)

@@ -18,6 +18,7 @@ def test_propagation_reaches_through_chains_of_constraints_and_half_bounded_doma
     assert all(found[f"x[{i}]"] == Interval(i, i + 1) for i in range(30))
 
 
+@pytest.mark.slow
 def test_slow_and_endless_propagation_ends() -> None:
     x, y = variables("x y")
     slow = Problem((x, y), {x: (-1, 1), y: (-1, 1)}, [x == y, y == 0.9 * x])

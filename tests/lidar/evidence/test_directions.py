@@ -2,12 +2,14 @@ import itertools
 
 import mpmath
 import numpy as np
+import pytest
 
 from ial.lidar.evidence.directions import unit_vectors
 from ial.lidar.evidence.end_points import relative_bounds
 from ial.lidar.margins import MARGIN, REACH
 
 
+@pytest.mark.slow
 def test_errors_as_large_as_a_far_reading_take_nothing_off_a_region() -> None:
     """A thousand kilometres less nearly as much: what is left is small, what was rounded is not."""
     random = np.random.default_rng(3)

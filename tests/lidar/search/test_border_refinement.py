@@ -106,6 +106,7 @@ class Case:
         return moved[0], moved[1], moved[2] % self.lattice.layers
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("at_the_cut", [False, True])
 def test_a_consistent_pose_stays(at_the_cut: bool) -> None:
     sharp = narrowed = 0

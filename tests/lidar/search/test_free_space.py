@@ -131,6 +131,7 @@ def test_an_endless_ray_and_a_bearing_that_may_be_anything_are_bounded() -> None
         assert count_blocked(seen, blind, beams, 2, *open_side).tolist() == [count]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("outliers", [0, 3, 29, "auto"])
 def test_a_scan_of_beams_without_return_alone_keeps_every_consistent_pose(outliers: int | str) -> None:
     grid = floor_plan(8.0, 6.0, 0.1, 4)

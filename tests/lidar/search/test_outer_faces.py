@@ -1,9 +1,11 @@
 import numpy as np
+import pytest
 
 from ial.lidar.search.outer_faces import outer_faces
 from tests.lidar.search.test_border_refinement import WORLDS, Case
 
 
+@pytest.mark.slow
 def test_outer_faces_are_those_without_a_neighbour() -> None:
     for seed in range(WORLDS):
         case = Case(seed, at_the_cut=seed % 2 == 0)

@@ -18,6 +18,7 @@ def test_cycles_are_drawn_on_every_environment_they_are_in(tmp_path: Path) -> No
     assert pixels(image, UNKNOWN) < 100  # edges of letters
 
 
+@pytest.mark.slow
 def test_a_filter_without_its_environment_shows_the_cells_it_knows(tmp_path: Path) -> None:
     made, _, _ = built(["room"])
     grounds = BounceGround.of_setting(made.setting, [(made.places.row, made.places.column)])
