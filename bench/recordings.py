@@ -194,8 +194,8 @@ def main() -> None:
         misses: dict[str, list[dict[str, Any]]] = {}
         report.table(head.split("|"), (measure(run, misses) for run in RUNS if chosen.only in run.name))
         report.say("## Every miss: scans whose reference is not in the answer, by what the reference breaks\n")
-        for name, found in misses.items():
-            report.say(f"- {name}: {reasons(found)}")
+        for name, missed in misses.items():
+            report.say(f"- {name}: {reasons(missed)}")
         report.say()
     else:
         report.say("IAL_DATA is not set; set it to the folder of the test data to measure the other recordings.")

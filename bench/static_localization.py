@@ -164,9 +164,9 @@ def line(case: Case, rows: list[dict[str, Any]]) -> Iterator[str]:
     yield rows[-1]["answers"]
 
 
-def exponent(found: dict[Case, list[dict[str, Any]]], name: str) -> float:
+def exponent(measured: dict[Case, list[dict[str, Any]]], name: str) -> float:
     """Return the exponent of area with which the mean of a value grows best over `GROWTH` (least squares of the logarithms)."""
-    means = [statistics.fmean(row[name] for row in found[case]) for case in GROWTH]
+    means = [statistics.fmean(row[name] for row in measured[case]) for case in GROWTH]
     return statistics.linear_regression([math.log(case.area_m2) for case in GROWTH], [math.log(mean) for mean in means]).slope
 
 
@@ -195,23 +195,23 @@ def main() -> None:
         print(json.dumps(search(CASES[chosen.case], chosen.scenes)))
         return
     report = Report("Static localization", ABOUT)
-    found: dict[Case, list[dict[str, Any]]] = {}
+    measured: dict[Case, list[dict[str, Any]]] = {}
 
     def lines() -> Iterator[Iterator[str]]:
         for case in [CAMPUS] if chosen.campus else CASES[:-1]:
-            found[case] = in_own_processes(case)
-            yield line(case, found[case])
+            measured[case] = in_own_processes(case)
+            yield line(case, measured[case])
 
     head = "map|scans|nodes|nodes per m²|ms, 1 thread|ms, all threads|memory, MB|scans × hypotheses|truth contained|limited|answers"
     report.table(head.split("|"), lines())
     if chosen.campus:
         report.write(chosen.out)
         return
-    report.say(f"From {GROWTH[0]} on, nodes grow as area to the power of **{exponent(found, 'nodes'):.3f}** (the goal is at most 1.05),")
-    report.say(f"and the time on one thread as area to the power of {exponent(found, 'one_s'):.3f}.\n")
+    report.say(f"From {GROWTH[0]} on, nodes grow as area to the power of **{exponent(measured, 'nodes'):.3f}** (the goal is at most 1.05),")
+    report.say(f"and the time on one thread as area to the power of {exponent(measured, 'one_s'):.3f}.\n")
     report.say("Beside it, a brute-force search (`ial.particles.brute_force`) on the same scans. It returns one pose, and no guarantee.\n")
     head = "map|poses tried|brute force: ms, 1 thread|ms, all threads|off by, m|ours: ms, 1 thread|ms, all threads|nearest middle off by, m"
-    report.table(head.split("|"), (beside(case, rows) for case, rows in found.items() if "brute_poses" in rows[0]))
+    report.table(head.split("|"), (beside(case, rows) for case, rows in measured.items() if "brute_poses" in rows[0]))
     report.write(chosen.out)
 
 

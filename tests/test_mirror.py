@@ -40,6 +40,8 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
         "bouncing/automata/test_determinization.py": ["subset"],
         "bouncing/exports/test_archive.py": ["state_places"],
         "bouncing/planning/test_angle_search.py": ["information_sets"],
+        "contractors/expressions/test_functions.py": ["whole_exponent"],
+        "contractors/expressions/test_tape.py": ["machine"],
         "contractors/test_boxes.py": ["elementwise"],
         "datasets/test_conversion.py": ["copied_messages"],
         "results/lidar/test_picture.py": ["panels"],

@@ -92,10 +92,10 @@ class OutsideCells(RowContractor):
         return CellContractor(self._index)
 
     def _narrow(self, boxes: Boxes) -> Boxes:
-        found, resolution = super()._narrow(boxes), self._index.resolution
+        narrowed, resolution = super()._narrow(boxes), self._index.resolution
         for axis, cells in enumerate((self._table.shape[1] - 1, self._table.shape[0] - 1)):
-            threads.run(_widen_beyond, len(boxes), axis, cells, resolution, boxes.lower, boxes.upper, found.lower, found.upper)
-        return found
+            threads.run(_widen_beyond, len(boxes), axis, cells, resolution, boxes.lower, boxes.upper, narrowed.lower, narrowed.upper)
+        return narrowed
 
     def _narrow_rows(self, lower: FloatArray, upper: FloatArray) -> None:
         index = self._index

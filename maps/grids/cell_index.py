@@ -98,7 +98,7 @@ def _cells_exactly_met(inverse_resolution, resolution, lower, upper, cells):  # 
 
 @kernel
 def columns_with_cells(table, row0, row1, column0, column1):  # type: ignore[no-untyped-def]
-    """Return the range from the first to behind the last column with a cell of the set; there must be one."""
+    """Return the range from the first column with a cell of the set to one past the last; there must be one."""
     low, high = column0, column1 - 1
     while low < high:
         middle = (low + high) // 2
@@ -119,7 +119,7 @@ def columns_with_cells(table, row0, row1, column0, column1):  # type: ignore[no-
 
 @kernel
 def rows_with_cells(table, row0, row1, column0, column1):  # type: ignore[no-untyped-def]
-    """Return the range from the first to behind the last row with a cell of the set; there must be one."""
+    """Return the range from the first row with a cell of the set to one past the last; there must be one."""
     return columns_with_cells(table.T, column0, column1, row0, row1)
 
 
@@ -142,9 +142,9 @@ def contract(table, inverse_resolution, resolution, xl, xu, yl, yu):  # type: ig
 
 
 @kernel
-def _meet_rows(start, stop, table, origin, inverse_resolution, lower, upper, found):  # type: ignore[no-untyped-def]
+def _meet_rows(start, stop, table, origin, inverse_resolution, lower, upper, met):  # type: ignore[no-untyped-def]
     for i in range(start, stop):
-        found[i] = meets(table, origin, inverse_resolution, lower[i, 0], upper[i, 0], lower[i, 1], upper[i, 1])
+        met[i] = meets(table, origin, inverse_resolution, lower[i, 0], upper[i, 0], lower[i, 1], upper[i, 1])
 
 
 class CellIndex:
@@ -212,9 +212,9 @@ class CellIndex:
     def meet(self, boxes: Boxes) -> npt.NDArray[np.bool_]:
         """Return which boxes (x, y) meet a cell of the set, shape (n,); never False where one does."""
         _check_plane(boxes)
-        found = np.empty(len(boxes), dtype=np.bool_)
-        threads.run(_meet_rows, len(boxes), self.table, self.origin, self.inverse_resolution, boxes.lower, boxes.upper, found)
-        return found
+        met = np.empty(len(boxes), dtype=np.bool_)
+        threads.run(_meet_rows, len(boxes), self.table, self.origin, self.inverse_resolution, boxes.lower, boxes.upper, met)
+        return met
 
 
 def _check_plane(boxes: Boxes) -> None:

@@ -78,10 +78,10 @@ def test_between_encloses_the_exact_motion_of_recorded_quaternions() -> None:
 
 def test_odometry_of_which_nothing_is_known_gives_every_motion() -> None:
     path = OdometryPath.of([(0, Odometry(0.0, 0.0)), (1, Odometry(1.0, 2.0, 0.0, 1.0, math.inf, math.inf)), (2, Odometry(3.0, 0.0))])
-    found = MotionBounds().along(path)
-    assert np.isinf(found.lower[:2]).all()
-    assert np.isinf(found.upper[:2]).all()
-    assert found.upper[2] - found.lower[2] >= 2.0 * math.pi
+    motion = MotionBounds().along(path)
+    assert np.isinf(motion.lower[:2]).all()
+    assert np.isinf(motion.upper[:2]).all()
+    assert motion.upper[2] - motion.lower[2] >= 2.0 * math.pi
 
 
 @given(poses, poses, shares, shares)

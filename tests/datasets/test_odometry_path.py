@@ -21,7 +21,7 @@ def test_a_path_is_the_composition_of_its_pieces() -> None:
         for (start, first), (stop, second) in itertools.pairwise(path):
             piece = apart.enclose(Motion.between(first, second), 1e-9 * float(stop - start))
             expected = piece if start == stamps[0] else expected.compose(piece)
-        found = bounds.along(path)
-        assert found.lower[:2] == pytest.approx(expected.lower[:2] - once[:2], abs=1e-9)
-        assert found.upper[:2] == pytest.approx(expected.upper[:2] + once[:2], abs=1e-9)
-        assert found.upper[2] - found.lower[2] == pytest.approx(min(2.0 * math.pi, expected.upper[2] - expected.lower[2] + 0.8), abs=1e-9)
+        motion = bounds.along(path)
+        assert motion.lower[:2] == pytest.approx(expected.lower[:2] - once[:2], abs=1e-9)
+        assert motion.upper[:2] == pytest.approx(expected.upper[:2] + once[:2], abs=1e-9)
+        assert motion.upper[2] - motion.lower[2] == pytest.approx(min(2.0 * math.pi, expected.upper[2] - expected.lower[2] + 0.8), abs=1e-9)

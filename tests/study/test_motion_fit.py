@@ -26,11 +26,11 @@ def test_bounds_are_fitted_over_every_message(every: int) -> None:
             if step.motion is not None
         ]
         assert {step.messages for step in chosen} == {6 * every}
-        found = fitted(first, chosen, 0.99)
-        held = [np.mean([step.held(bounds) for step in chosen], axis=0) for bounds in (found, first)]
+        fitted_bounds = fitted(first, chosen, 0.99)
+        held = [np.mean([step.held(bounds) for step in chosen], axis=0) for bounds in (fitted_bounds, first)]
         assert (held[0] >= 0.99).all()
         assert (start > 1.0) == (held[1] >= 0.99).all()
-        ratios = [sum(astuple(bound)) / sum(astuple(other)) for bound, other in zip(_both(found), _both(wheels), strict=True)]
+        ratios = [sum(astuple(bound)) / sum(astuple(other)) for bound, other in zip(_both(fitted_bounds), _both(wheels), strict=True)]
         assert max(ratios) < 1.3  # two digits are rounded up
 
 

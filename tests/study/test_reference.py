@@ -19,6 +19,6 @@ def test_the_localizers_own_poses_stand_in_for_a_reference() -> None:
     config = LocalizerConfig()
     pairs = list(own_poses(run.recording, grid, config))
     assert [step.index for step, _ in pairs] == [step.index for step in steps(run.recording, config.bounds.motion)]
-    found = [(pose, path[step.index]) for step, pose in pairs if pose is not None]
-    assert len(found) > 6
-    assert all(math.hypot(pose.x - true.x, pose.y - true.y) < 0.5 for pose, true in found)
+    poses = [(pose, path[step.index]) for step, pose in pairs if pose is not None]
+    assert len(poses) > 6
+    assert all(math.hypot(pose.x - true.x, pose.y - true.y) < 0.5 for pose, true in poses)

@@ -69,6 +69,9 @@ class Beams:
         """Return how many beams are used, those without return counted whose rays are."""
         return len(self.ends) + (0 if self.rays is None else int((self.rays.beams < 0).sum()))
 
+    def __repr__(self) -> str:
+        return f"<Beams: {len(self)}, of which {self.outliers} may be bad>"
+
     @property
     def informative(self) -> bool:
         """Whether the scan can exclude any pose at all: with as many outliers as beams it cannot."""

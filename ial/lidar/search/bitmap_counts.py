@@ -8,7 +8,7 @@ import numpy as np
 
 from ial.contractors.kernels import kernel
 from ial.lidar.search.cell_bitmaps import BITMAP_COLUMNS, BITMAP_ROWS
-from ial.lidar.search.empty_rectangles import LANES, count_empty
+from ial.lidar.search.empty_rectangles import LANES, count_empty_rectangles
 from ial.maps.grids.cell_index import BORDER
 
 _SEGMENT = BORDER // LANES  # groups of lanes in one segment: what a table's border allows
@@ -41,7 +41,9 @@ def _add_empty(flat, stride, limits, places, rows, first, groups, counts, at):  
     above = _clamped(rows + places[3], 0, row_limit) * stride
     for group in range(groups):
         step = group * LANES
-        count_empty(flat, above + right + step, above + left + step, below + right + step, below + left + step, counts, at + step)
+        count_empty_rectangles(
+            flat, above + right + step, above + left + step, below + right + step, below + left + step, counts, at + step
+        )
 
 
 @kernel
@@ -50,7 +52,7 @@ def list_segments(words, row0, column0, parts, segments):  # type: ignore[no-unt
 
     A row holds the table row, the first column, the number of groups of lanes, and the place of the first count.
     """
-    found = at_count = 0
+    listed = at_count = 0
     for y in range(BITMAP_ROWS):
         word = words[y]
         if word == np.uint64(0):
@@ -65,21 +67,21 @@ def list_segments(words, row0, column0, parts, segments):  # type: ignore[no-unt
             at = first
             while at < stop:
                 groups = min((stop - at + LANES - 1) // LANES, _SEGMENT)
-                segments[found, 0] = row0 + y * parts + part
-                segments[found, 1] = column0 + at
-                segments[found, 2] = groups
-                segments[found, 3] = at_count
+                segments[listed, 0] = row0 + y * parts + part
+                segments[listed, 1] = column0 + at
+                segments[listed, 2] = groups
+                segments[listed, 3] = at_count
                 at_count += groups * LANES
-                found += 1
+                listed += 1
                 at += groups * LANES
-    return found
+    return listed
 
 
 @kernel
-def _refine(segments, found, most, counts):  # type: ignore[no-untyped-def]
+def _refine(segments, listed, most, counts):  # type: ignore[no-untyped-def]
     """Take the groups without a promising part off both ends of the segments; return whether any group is left."""
     left = False
-    for k in range(found):
+    for k in range(listed):
         first, groups, at = segments[k, 1], segments[k, 2], segments[k, 3]
         while groups > 0 and not _promising(counts, at, most):
             first += LANES
@@ -101,7 +103,7 @@ def _promising(counts, at, most):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def count_bitmap(segments, found, row0, column0, parts, places, most, tables, counts, least):  # type: ignore[no-untyped-def]
+def count_bitmap(segments, listed, row0, column0, parts, places, most, tables, counts, least):  # type: ignore[no-untyped-def]
     """Lower `least` to the smallest count among the parts of each cell of a bitmap, for one interval of headings.
 
     The segments are cut short; counts above `most` are not finished.
@@ -109,7 +111,7 @@ def count_bitmap(segments, found, row0, column0, parts, places, most, tables, co
     flat, domain, stride, limits = tables
     beams = len(places)
     around = np.array([-1, -1, 2, 2])
-    for k in range(found):
+    for k in range(listed):
         row, first, groups, at = segments[k]
         for i in range(at, at + groups * LANES):
             counts[i] = 0
@@ -117,17 +119,17 @@ def count_bitmap(segments, found, row0, column0, parts, places, most, tables, co
         for i in range(at, at + groups * LANES):
             counts[i] *= _NEVER
     start = 0
-    left = _refine(segments, found, most, counts)
+    left = _refine(segments, listed, most, counts)
     while start < beams and left:
         stop = min(start + _BEAMS_PER_CHECK, beams)
         for i in range(start, stop):
-            for k in range(found):
+            for k in range(listed):
                 row, first, groups, at = segments[k]
                 if groups > 0:
                     _add_empty(flat, stride, limits, places[i], row, first, groups, counts, at)
         start = stop
-        left = _refine(segments, found, most, counts)
-    for k in range(found):
+        left = _refine(segments, listed, most, counts)
+    for k in range(listed):
         row, first, groups, at = segments[k]
         y = (row - row0) // parts
         for i in range(groups * LANES):

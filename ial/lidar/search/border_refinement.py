@@ -1,6 +1,6 @@
 """How far an answer really reaches: its outer cells are cut back to the pieces of them that may hold a consistent pose.
 
-A search ends with cells of one size. Where few of them are left, their outer faces, those without a neighbour, can be found more finely:
+A search ends with cells of one size. Where few of them are left, their outer faces, those without a neighbour, can be refined:
 the cell is halved along every axis, again and again, and each outer face is moved to the outermost piece that may hold a consistent pose.
 A cell without such a piece is dropped. Faces between two cells stay where they are, so that what belongs together stays connected.
 """
@@ -63,7 +63,7 @@ def _reach(cell, outer, depth, evidence, q, grid, headings, stack, reached):  # 
         reached[0, axis] = np.inf if outer[0, axis] else cell[0, axis]
         reached[1, axis] = -np.inf if outer[1, axis] else cell[1, axis]
         first |= (outer[1, axis] and not outer[0, axis]) << axis  # the half along each axis that lies at an outer face
-    found = False
+    met = False
     stack[0, :] = 0
     height = 1
     while height:
@@ -96,7 +96,7 @@ def _reach(cell, outer, depth, evidence, q, grid, headings, stack, reached):  # 
             if near and not fits(left, below, right, above, bounds[node], q, flat, stride, row_limit, column_limit, failing):
                 continue
         if level == depth:
-            found = True
+            met = True
             for axis in range(3):
                 low, high = (xl, xu) if axis == 0 else (yl, yu) if axis == 1 else (tl, tu)
                 if outer[0, axis]:
@@ -111,7 +111,7 @@ def _reach(cell, outer, depth, evidence, q, grid, headings, stack, reached):  # 
             stack[height, 2] = 2 * ny + ((child >> 1) & 1)
             stack[height, 3] = 2 * nt + (child >> 2)
             height += 1
-    return found
+    return met
 
 
 @kernel
@@ -217,10 +217,10 @@ def mend(cells: Boxes, lattice: Lattice, refined: Boxes, kept: npt.NDArray[np.bo
     lower, upper, kept = refined.lower, refined.upper, kept.copy()
     turns = (lattice.layer(cells) - lattice.layer(whole.hulls)[labels]) % lattice.layers
     for label in torn:
-        found = kept & (labels == label)
-        low, high = lower[found].min(axis=0), upper[found].max(axis=0)
-        first, last = turns[found].min(), turns[found].max()
-        low[2], high[2] = lower[found & (turns == first), 2].min(), upper[found & (turns == last), 2].max()
+        own = kept & (labels == label)
+        low, high = lower[own].min(axis=0), upper[own].max(axis=0)
+        first, last = turns[own].min(), turns[own].max()
+        low[2], high[2] = lower[own & (turns == first), 2].min(), upper[own & (turns == last), 2].max()
         rows = np.flatnonzero((labels == label) & (first <= turns) & (turns <= last))
         lowest, highest = np.tile(low, (len(rows), 1)), np.tile(high, (len(rows), 1))
         lowest[turns[rows] != first, 2], highest[turns[rows] != last, 2] = -np.inf, np.inf

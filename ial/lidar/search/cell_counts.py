@@ -103,19 +103,19 @@ def _count(start, stop, runs, order, keys, words, levels, edges, parts, evidence
                     if not placed[node]:
                         _place_node(node, 2 * layers, 2 * layers * block, edges, evidence, map_error, grid, bounds, places[node])
                         placed[node] = True
-                    found = list_segments(left[level + 1], row0, column0, parts, segments)
+                    listed = list_segments(left[level + 1], row0, column0, parts, segments)
                     above[:, :] = LARGEST_COUNT
-                    count_bitmap(segments, found, row0, column0, parts, places[node], most, tables, counts, above)
+                    count_bitmap(segments, listed, row0, column0, parts, places[node], most, tables, counts, above)
                     _without(left[level + 1], above, most, left[level + 1])
-            found = list_segments(left[levels + 1], row0, column0, parts, segments)
-            if not found:
+            listed = list_segments(left[levels + 1], row0, column0, parts, segments)
+            if not listed:
                 continue
             for node in range(2 * leaf, 2 * leaf + 2):
                 if not placed[node]:
                     _place_node(node, 2 * layers, 2 * layers * block, edges, evidence, map_error, grid, bounds, places[node])
                     placed[node] = True
-                found = list_segments(left[levels + 1], row0, column0, parts, segments)
-                count_bitmap(segments, found, row0, column0, parts, places[node], most, tables, counts, least[bitmap])
+                listed = list_segments(left[levels + 1], row0, column0, parts, segments)
+                count_bitmap(segments, listed, row0, column0, parts, places[node], most, tables, counts, least[bitmap])
             _without(left[levels + 1], least[bitmap], most, kept[bitmap])
 
 

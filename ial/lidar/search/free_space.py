@@ -194,24 +194,24 @@ def _block_rows(start, stop, order, lower, upper, parts, hits, rays, grid, least
                 headings[i, 4] = lengths[i] / resolution - MARGIN
                 near = min(lasers[i, 0], lasers[i, 2]) >= -NEAR and max(lasers[i, 1], lasers[i, 3]) <= NEAR
                 if not near or theta_upper - theta_lower + 2.0 * turn > _WIDEST_TURN:
-                    headings[i, :4] = 0.0  # along no axis: such a ray is never found to be blocked
+                    headings[i, :4] = 0.0  # along no axis: such a ray is never counted as blocked
         xl, yl = lower[row, 0] / resolution - origin[1], lower[row, 1] / resolution - origin[0]
         xu, yu = upper[row, 0] / resolution - origin[1], upper[row, 1] / resolution - origin[0]
         if min(xl, yl) < -NEAR or max(xu, yu) > NEAR or theta_upper - theta_lower > _WIDEST_TURN:
             continue
         box = (xl - MARGIN, yl - MARGIN, xu + MARGIN, yu + MARGIN)
         barred[:] = False
-        alone = found = 0
+        alone = blocked_rays = 0
         for i in range(count):
             ray = (headings[i, 0], headings[i, 1], headings[i, 2], headings[i, 3], headings[i, 4])
             laser = (lasers[i, 0], lasers[i, 1], lasers[i, 2], lasers[i, 3])
             if blocked(box, laser, ray, margins[i] / resolution, table, upwards, rightwards):
-                found += 1
+                blocked_rays += 1
                 if numbers[i] >= 0:
                     barred[numbers[i]] = True
                 else:
                     alone += 1
-        if found:
+        if blocked_rays:
             fewest = np.int64(1) << 30
             wide = (xu - xl) / parts
             high = (yu - yl) / parts

@@ -220,8 +220,8 @@ class Sections:
         margin = self._margin + _AROUND
         window = []
         for number, cells in zip(key, (self._grid.rows, self._grid.columns), strict=True):
-            first, behind = (edge * self._side_m / self._grid.resolution for edge in (number, number + 1))
-            window.append(slice(max(0, math.floor(first) - margin), min(cells, math.ceil(behind) + margin)))
+            first, end = (edge * self._side_m / self._grid.resolution for edge in (number, number + 1))
+            window.append(slice(max(0, math.floor(first) - margin), min(cells, math.ceil(end) + margin)))
         return window[0], window[1]
 
     def __getitem__(self, key: Key) -> MapTables:

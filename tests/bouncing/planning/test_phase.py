@@ -16,7 +16,7 @@ def test_one_angle_says_what_its_automaton_says() -> None:
         sizes = known.uncertainty(map_.graph)
         assert (sizes.min(), sizes.max()) == (automaton.cycles.uncertainty.min(), automaton.cycles.uncertainty.max())
         assert known.elapsed.max() == automaton.depth
-        assert known.behind.sum() == map_.graph.configurations
+        assert known.weights.sum() == map_.graph.configurations
 
 
 def test_a_phase_begins_in_any_set() -> None:
@@ -27,5 +27,5 @@ def test_a_phase_begins_in_any_set() -> None:
     for number in range(len(ends)):
         members = frozenset(ends.members[ends.starts[number] : ends.starts[number + 1]].tolist())
         assert comes_back(graph, members)
-    assert ends.behind.sum() == len(held)
+    assert ends.weights.sum() == len(held)
     assert ends.elapsed.min() >= 5

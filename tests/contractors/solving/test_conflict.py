@@ -22,16 +22,16 @@ def test_a_conflict_is_irreducible(seed: int) -> None:
     problem = conflicting(seed)
     if len(problem.solve(0.05).boxes):
         pytest.fail("choose another seed")
-    found = problem.why_empty(0.05)
-    assert 1 <= len(found) < 9
-    assert [each for each in problem.constraints if any(each is one for one in found)] == list(found)
+    conflict = problem.why_empty(0.05)
+    assert 1 <= len(conflict) < 9
+    assert [each for each in problem.constraints if any(each is one for one in conflict)] == list(conflict)
 
     def boxes(constraints: list[object]) -> Boxes:
         return Problem(variables_of(problem), problem.box, constraints).solve(0.05).boxes
 
-    assert not len(boxes(list(found)))
-    for left_out in range(len(found)):
-        assert len(boxes([*found[:left_out], *found[left_out + 1 :]]))
+    assert not len(boxes(list(conflict)))
+    for left_out in range(len(conflict)):
+        assert len(boxes([*conflict[:left_out], *conflict[left_out + 1 :]]))
 
 
 def variables_of(problem: Problem) -> list[object]:

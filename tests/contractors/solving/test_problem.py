@@ -88,13 +88,13 @@ def test_no_solution_is_lost_and_rows_do_not_depend_on_each_other(seed: int) -> 
     problem = Problem((x, y, z), {variable: (value - random.random(), value + 1) for variable, value in points.items()}, constraints)
     assert all(value in domain for value, domain in zip(at, problem.propagate().values(), strict=True))
     boxes = Boxes(at - random.random((20, 3)), at + random.random((20, 3)))
-    found = problem.contract(boxes)
-    assert found.contain(at.tolist()).all()
-    assert found.subset(boxes).all()
+    narrowed = problem.contract(boxes)
+    assert narrowed.contain(at.tolist()).all()
+    assert narrowed.subset(boxes).all()
     order = random.permutation(20)
     again = problem.contract(boxes[order])
-    assert again.lower.tobytes() == found.lower[order].tobytes()
-    assert again.upper.tobytes() == found.upper[order].tobytes()
+    assert again.lower.tobytes() == narrowed.lower[order].tobytes()
+    assert again.upper.tobytes() == narrowed.upper[order].tobytes()
 
 
 def test_solve_covers_the_solutions_tightly_and_passes_options_on() -> None:
@@ -124,9 +124,9 @@ def test_families_count_as_one_constraint() -> None:
     beacons = np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]])
     ranges = Boxes.around(np.hypot(*(beacons - [1.0, 2.0]).T), 0.01)
     family = sqrt((x - beacons[:, 0]) ** 2 + (y - beacons[:, 1]) ** 2) == ranges
-    found = Problem((x, y), {x: (-9, 9), y: (-9, 9)}, [family]).solve(0.01)
-    assert found.contains([1.0, 2.0])
-    assert (np.abs(found.boxes.midpoint() - [1.0, 2.0]) < 0.05).all()
+    paving = Problem((x, y), {x: (-9, 9), y: (-9, 9)}, [family]).solve(0.01)
+    assert paving.contains([1.0, 2.0])
+    assert (np.abs(paving.boxes.midpoint() - [1.0, 2.0]) < 0.05).all()
     assert Problem((x, y), {x: (-9, 9), y: (5, 9)}, [x <= 9, family]).why_empty(0.01) == (family,)
 
 

@@ -14,8 +14,8 @@ from tests.contractors.solving.test_problem import INF
 def test_propagation_reaches_through_chains_of_constraints_and_half_bounded_domains() -> None:
     x = variables("x[30]")
     chain = [x[i + 1] == x[i] + 1 for i in range(29)]
-    found = Problem(x, {x[0]: (0, INF), x[29]: (-INF, 30)}, chain[::-1]).propagate()
-    assert all(found[f"x[{i}]"] == Interval(i, i + 1) for i in range(30))
+    domains = Problem(x, {x[0]: (0, INF), x[29]: (-INF, 30)}, chain[::-1]).propagate()
+    assert all(domains[f"x[{i}]"] == Interval(i, i + 1) for i in range(30))
 
 
 @pytest.mark.slow
@@ -46,9 +46,9 @@ def test_only_what_is_affected_is_contracted_again() -> None:
     x, y, z = variables("x y z")
     members = [Spy("xy", x == y, (0, 1)), Spy("yz", y == z, (1, 2)), Spy("z", z <= 1.0, (2,))]
     boxes = Boxes.of([(0, 2), (0, 2), (0, 2)], [(0, 1), (0, 1), (0, 1)], [(0, 1), (3, 4), (0, 1)])
-    found = Propagation(*members).contract(boxes)
-    assert found.upper[:2].max() == 1.0
-    assert found.empty.tolist() == [False, False, True]
+    narrowed = Propagation(*members).contract(boxes)
+    assert narrowed.upper[:2].max() == 1.0
+    assert narrowed.empty.tolist() == [False, False, True]
     # z narrows the first box: yz, and then xy, and each once more since a spy may gain from a second time.
     assert calls[:3] == [("xy", 3), ("yz", 2), ("z", 2)]
     assert set(calls[3:]) <= {("xy", 1), ("yz", 1), ("z", 1)}

@@ -30,10 +30,10 @@ def symmetries_of(grid: OccupancyGrid) -> tuple[Pose, ...]:
 @pytest.mark.parametrize("turns", [1, 2, 4])
 def test_quarter_turns_are_found_and_map_walls_onto_walls(turns: int) -> None:
     grid = hall(turns)
-    found = symmetries_of(grid)
-    assert len(found) == turns - 1
+    symmetries = symmetries_of(grid)
+    assert len(symmetries) == turns - 1
     rows, columns = np.nonzero(grid.mask(OCCUPIED))
-    for turn in found:
+    for turn in symmetries:
         for row, column in zip(rows[::97].tolist(), columns[::97].tolist(), strict=True):
             at = turn @ Pose((column + 0.5) * 0.05, (row + 0.5) * 0.05)
             assert grid.mask(OCCUPIED)[math.floor(at.y / 0.05), math.floor(at.x / 0.05)]
@@ -61,7 +61,7 @@ def test_the_rotations_are_those_of_the_turned_arrays() -> None:
         if len(rows):
             inner = cells[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
             expected = [0.5 * math.pi * turns for turns in (1, 2, 3) if np.array_equal(np.rot90(inner, turns), inner)]
-        found = symmetries_of(grid)
-        assert [each.theta % (2.0 * math.pi) for each in found] == pytest.approx(expected)
-        numbers.add(len(found))
+        symmetries = symmetries_of(grid)
+        assert [each.theta % (2.0 * math.pi) for each in symmetries] == pytest.approx(expected)
+        numbers.add(len(symmetries))
     assert numbers == {0, 1, 3}
