@@ -162,7 +162,7 @@ class Localizer:
             self.config.localized_size,
             rejected=rejection is not None,
             confirmed=not bool(poses.unconfirmed.all()),
-            symmetric=are_images(poses.boxes, symmetries, self.grid.width_m + self.grid.height_m),
+            symmetric=are_images(poses, symmetries, self.grid.width_m + self.grid.height_m),
         )
         pose = hypotheses[0].centre if status == "localized" else None
         return Estimate(

@@ -17,7 +17,11 @@ from ial.pose import Pose
 
 @dataclass(frozen=True, eq=False)
 class PoseSet:
-    """A set of poses (x, y, θ) of the robot's base.
+    """A set of poses (x, y, θ) of the robot's base, and with how many bad beams the last scan was taken to leave it.
+
+    These numbers stay with the set, since what is done with it next depends on them, in another process, too. Where q is chosen at the
+    scan, a search leaves the sets of many q at once, box by box, and `within` takes one of them; its border is cut back with the same q;
+    the rest of the map is searched for places where fewer beams are bad than here; and the next scan compares its q with this one.
 
     Parameters
     ----------

@@ -228,7 +228,7 @@ class Sections:
         """Return a section; it is made if need be, and others may be forgotten."""
         if key not in self._made:
             self._made[key] = self._make(*self._window(key))
-            while len(self._made) > _FEWEST_KEPT and sum(tables.occupied.table.size for tables in self._made.values()) > _KEPT:
+            while len(self._made) > _FEWEST_KEPT and sum(tables.occupied.cells.table.size for tables in self._made.values()) > _KEPT:
                 self._made.popitem(last=False)
         self._made.move_to_end(key)
         return self._made[key]

@@ -25,7 +25,7 @@ def difference(formula: Any, point: Any, axis: int) -> Any:
     return (left + right) / 2 if abs(left - right) <= mp.mpf(10) ** -12 * (1 + abs(left)) else None
 
 
-@pytest.mark.many
+@pytest.mark.slow
 def test_gradients_of_random_formulas_enclose_slopes() -> None:
     rng = np.random.default_rng(1)
     p = variables("p[2]")

@@ -125,8 +125,8 @@ def test_a_section_holds_every_end_of_a_beam(small_sections: None) -> None:
         ((key, _, _),) = list(model.sections.parts(Boxes.of([(pose.x, pose.x), (pose.y, pose.y), (0.0, 0.0)])))
         occupied = model.sections[key].occupied
         far = np.hypot(*beams.ends.T).max() + 0.05
-        rows, columns = (size - 1 for size in occupied.table.shape)
-        low_row, low_column = occupied.origin
+        rows, columns = (size - 1 for size in occupied.cells.table.shape)
+        low_row, low_column = occupied.cells.origin
         for low, size, at, cells in ((low_row, rows, pose.y, world().rows), (low_column, columns, pose.x, world().columns)):
             assert low == 0 or low * 0.05 <= at - far
             assert low + size == cells or (low + size) * 0.05 >= at + far
@@ -163,7 +163,7 @@ def test_parts_cover_their_boxes_and_lie_in_the_cores(small_sections: None) -> N
     assert (numbers[50:80][exact] == 1).all()  # a box that is a core belongs to no neighbour
 
 
-@pytest.mark.many
+@pytest.mark.slow
 def test_a_radius_is_kept_in_sections_as_in_one_piece(small_sections: None, monkeypatch: pytest.MonkeyPatch) -> None:
     config = LocalizerConfig(bounds=CONFIG.bounds, robot_radius_m=0.4)
     in_sections = Localizer(world(), config=config)
@@ -204,7 +204,7 @@ def test_beams_that_reach_across_the_map_are_no_trouble(small_sections: None) ->
     model = Localizer(OccupancyGrid(cells, 0.05), config=CONFIG).model
     ends = np.array([[14.0, 0.0], [0.0, 14.0]])
     model.sections.reach(Beams(ends, ends / 14.0, np.zeros((2, 2)), 0, map_error_m=0.01))
-    assert model.sections[0, 0].occupied.table.shape == (301, 301)
+    assert model.sections[0, 0].occupied.cells.table.shape == (301, 301)
 
 
 @pytest.mark.slow

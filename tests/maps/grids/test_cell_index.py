@@ -64,7 +64,7 @@ def scenes(draw: st.DrawFn) -> tuple[np.ndarray, float, Box]:
 def test_meets_is_never_wrongly_false_and_wrongly_true_only_within_the_slack(scene: tuple[np.ndarray, float, Box]) -> None:
     mask, resolution, box = scene
     index = CellIndex(mask, resolution)
-    met = meets(index.table, index.origin, index.inverse_resolution, *box)
+    met = meets(index.cells, *box)
     if exact_hull(mask, resolution, box) is not None:
         assert met
     elif met:
@@ -92,6 +92,7 @@ def test_contraction_is_the_exact_hull_rounded_outward_once(scene: tuple[np.ndar
     assert bounds[3] <= yu
 
 
+@pytest.mark.slow
 @settings(max_examples=200)
 @given(scenes())
 def test_contracting_twice_changes_nothing(scene: tuple[np.ndarray, float, Box]) -> None:
@@ -146,7 +147,7 @@ def test_touching_an_edge_far_from_the_corner_of_a_map_is_meeting(resolution: fl
 
 def test_count_is_a_sum_over_the_cells() -> None:
     mask = np.random.default_rng(5).random((5, 7)) < 0.4
-    table = CellIndex(mask, 0.1).table
+    table = CellIndex(mask, 0.1).cells.table
     assert table.shape == (6, 8)
     assert table.dtype == np.int32
     for row0, row1 in itertools.combinations_with_replacement(range(6), 2):
@@ -158,12 +159,12 @@ def test_a_compact_table_counts_modulo_two_to_the_sixteen() -> None:
     mask = np.random.default_rng(7).random((300, 400)) < 0.9  # many more cells than 16 bits hold
     mask[100:200, 50:300] = False
     full, compact = CellIndex(mask, 0.1), CellIndex(mask, 0.1, compact=True)
-    assert compact.bordered.nbytes == full.bordered.nbytes // 2
-    assert (compact.bordered == full.bordered.astype(np.uint16)).all()
+    assert compact.cells.bordered.nbytes == full.cells.bordered.nbytes // 2
+    assert (compact.cells.bordered == full.cells.bordered.astype(np.uint16)).all()
     rng = np.random.default_rng(8)
     for _ in range(cases(3000, 200)):
         (row0, row1), (column0, column1) = np.sort(rng.integers(0, 301, 2)), np.sort(rng.integers(0, 401, 2))
-        exact, modular = (count(each.table, row0, row1, column0, column1) for each in (full, compact))
+        exact, modular = (count(each.cells.table, row0, row1, column0, column1) for each in (full, compact))
         if (row1 - row0) * (column1 - column0) < 2**16:
             assert modular == exact
         else:
@@ -248,7 +249,7 @@ def test_no_occupied_point_of_a_large_box_is_lost() -> None:
 def test_a_grid_gives_its_mask() -> None:
     grid = OccupancyGrid(np.array([[0, 1, 2]], np.uint8), 0.5)
     index = CellIndex(grid.mask(OCCUPIED), grid.resolution)
-    assert index.table.tolist() == [[0, 0, 0, 0], [0, 0, 1, 1]]
+    assert index.cells.table.tolist() == [[0, 0, 0, 0], [0, 0, 1, 1]]
 
 
 def test_bad_input_is_refused() -> None:
