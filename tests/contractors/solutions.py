@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from tests.cases import cases
 from tests.contractors.oracles import FloatArray, Pairs, numbers, tight
 
-COUNT = 10_000
+COUNT = cases(10_000, 200)
 
 Kernel = Callable[..., tuple[float, ...]]
 

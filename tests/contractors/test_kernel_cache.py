@@ -17,6 +17,8 @@ from ial.contractors.kernel_sources import kernel_sources
 from ial.contractors.kernels import callback, kernel
 from tests.contractors.pickle_bomb import plant
 
+pytestmark = pytest.mark.compiled
+
 POINTER = types.CPointer(types.float64)
 LARGE = np.ones(200_000)
 

@@ -163,6 +163,7 @@ def codes(code: CodeType) -> Iterator[CodeType]:
             yield from codes(constant)
 
 
+@pytest.mark.compiled
 @pytest.mark.slow
 def test_what_numba_really_calls_is_in_the_hash_of_the_caller(sources: KernelSources) -> None:
     """Not read off the text: from the functions themselves as they are once everything is imported."""

@@ -27,6 +27,7 @@ def copy(tmp_path: Path) -> PackageCopy:
     return PackageCopy(tmp_path)
 
 
+@pytest.mark.compiled
 @pytest.mark.slow
 def test_they_are_used_without_compiling_and_kernels_of_this_processor_win(copy: PackageCopy) -> None:
     place = build(copy, "x86-64")
@@ -45,6 +46,7 @@ def test_they_are_used_without_compiling_and_kernels_of_this_processor_win(copy:
     assert mark.exists()  # so the bomb works
 
 
+@pytest.mark.compiled
 @pytest.mark.slow
 def test_what_others_could_have_written_and_what_is_damaged_is_compiled(copy: PackageCopy) -> None:
     place = build(copy, "x86-64")

@@ -45,6 +45,7 @@ def test_every_row_is_visited_once(threads: int, rows: int) -> None:
     assert (visits == 1).all()
 
 
+@pytest.mark.many
 def test_the_result_does_not_depend_on_the_number_of_threads(boxes: Boxes) -> None:
     set_threads(1)
     one = RangeBearing().contract(boxes)
@@ -54,6 +55,7 @@ def test_the_result_does_not_depend_on_the_number_of_threads(boxes: Boxes) -> No
         assert same(RangeBearing().contract(boxes), one)
 
 
+@pytest.mark.many
 def test_several_python_threads_may_call_at_once(boxes: Boxes) -> None:
     set_threads(2)
     one = RangeBearing().contract(boxes)
@@ -62,6 +64,7 @@ def test_several_python_threads_may_call_at_once(boxes: Boxes) -> None:
     assert all(same(result, one) for result in results)
 
 
+@pytest.mark.many
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="the platform cannot fork")
 @pytest.mark.filterwarnings("ignore:This process:DeprecationWarning")  # Python 3.12 warns of any fork beside threads
 def test_a_forked_process_has_threads_of_its_own(boxes: Boxes) -> None:

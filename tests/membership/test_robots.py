@@ -207,6 +207,7 @@ def test_with_lapses_a_filter_holds_the_states_that_all_but_some_readings_allow(
             assert {(state, wrong) for wrong, held in enumerate(running.states) for state in world.listed(held)} == states
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("seed", range(3))
 def test_a_lidar_in_one_or_several_maps_holds_the_truth(seed: int) -> None:
     grid, config = floor_plan(9.0, 7.0, 0.05, seed), LocalizerConfig()

@@ -36,6 +36,7 @@ def off(pose: Pose, truth: Pose) -> tuple[float, float]:
     return math.hypot(pose.x - truth.x, pose.y - truth.y), abs(wrap(pose.theta - truth.theta))
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("seed", range(12))
 def test_the_true_pose_is_found(seed: int) -> None:
     grid, truth, scan = scene(seed)

@@ -34,6 +34,7 @@ def test_a_robot_between_walls_turns_for_ever() -> None:
     assert not periodic_groups(cell_map(drawn("..."), 180, 4).graph).bumping.all()
 
 
+@pytest.mark.many
 def test_a_path_of_a_million_vertices_needs_no_recursion() -> None:
     count = 1_000_000
     groups = periodic_groups(LabelledGraph.of(np.maximum(np.arange(count) - 1, 0), np.zeros(count)))

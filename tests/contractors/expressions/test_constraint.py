@@ -103,6 +103,7 @@ def test_joined_constraints_are_one_tape() -> None:
     assert type((x <= 1) | (y <= 1)) is not Constraint
 
 
+@pytest.mark.many
 def test_a_family_is_one_constraint_for_each_row() -> None:
     centres = np.array([0.0, 4.0, 0.0])
     family = hypot(x - centres, y - np.array([0.0, 0.0, 3.0])) == Boxes.of([(2, 3)], [(2, 3)], [(2, 3)])

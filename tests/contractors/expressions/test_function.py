@@ -55,6 +55,7 @@ def test_where_all_formulas_hold() -> None:
     assert Function(x * y).holds("defined", boxes).tolist() == [True, True, True, False]
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("partial", [False, True])
 def test_preimages_lose_no_point_of_their_side(partial: bool) -> None:
     rng = np.random.default_rng(2)

@@ -14,11 +14,12 @@ from ial.contractors.expressions.operation import Operation
 from ial.contractors.expressions.tape import Tape
 from ial.contractors.expressions.variables import variables
 from ial.contractors.intervals.interval import Interval
+from tests.cases import cases
 from tests.contractors.formulas import EXPONENTS, REAL, SMOOTH, lost, operands_of
 from tests.contractors.oracles import Pairs, intervals
 from tests.contractors.solutions import around, points
 
-COUNT = 800
+COUNT = cases(800, 40)
 PARTIAL = [name for name, operation in OPERATIONS.items() if operation.defined]
 # Where a function is defined on all of an interval if it is at both ends.
 CONVEX = ("sqrt", "log", "log2", "log10", "acosh", "atanh", "asin", "acos")

@@ -41,6 +41,7 @@ def test_arrays_boxes_and_intervals_give_what_the_kernel_gives(operation: Operat
         assert_same((boxes.lower[:, 0], boxes.upper[:, 0]), expected)
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("count", [0, 1, LANES - 1, LANES, LANES + 1, 5000])
 def test_results_do_not_depend_on_how_many_rows_there_are(count: int) -> None:
     given = [intervals(5000, 5), intervals(5000, 6)]

@@ -83,6 +83,7 @@ def test_more_rounds_narrow_more() -> None:
     assert tape.narrow(boxes, target, rounds=60).contain([0.0, 0.0]).all()
 
 
+@pytest.mark.many
 def test_rows_do_not_depend_on_each_other_or_on_threads(threads: int) -> None:
     rng = np.random.default_rng(4)
     p = variables("p[3]")

@@ -27,6 +27,7 @@ def within(bounds: tuple[tuple[float, float], ...], pairs: np.ndarray, slack: fl
     return Inside(*((a - slack, b + slack) for a, b in bounds)).holds(pairs)
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("start", [-math.pi, 0.0, 100.0, -2 * math.pi])
 @pytest.mark.parametrize("turned", [0.0, 2.0, 3.1, -1.0])
 def test_a_sector_in_the_plane(start: float, turned: float) -> None:
@@ -63,6 +64,7 @@ def test_the_origin_has_every_direction() -> None:
     assert from_polar(separator((-1, 1), (-4, 4))).inner.contract(origin).empty[0]
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("bounds", [((1.0, 3.0), (-1.0, 2.0)), ((-1.0, 1.0), (-1.0, 1.0))])
 def test_a_rectangle_in_polar_coordinates(bounds: tuple[tuple[float, float], ...]) -> None:
     made = to_polar(separator(*bounds))
@@ -83,6 +85,7 @@ def test_a_rectangle_in_polar_coordinates(bounds: tuple[tuple[float, float], ...
     assert inner.empty.any()
 
 
+@pytest.mark.many
 def test_unbounded_and_empty_boxes_and_none() -> None:
     boxes = random_boxes(200, 2, seed=3)
     for made in (from_polar(separator(*RING)), to_polar(separator(*RING))):
@@ -93,6 +96,7 @@ def test_unbounded_and_empty_boxes_and_none() -> None:
             assert len(contractor.contract(Boxes.none(2))) == 0
 
 
+@pytest.mark.many
 def test_complements_follow() -> None:
     boxes, _ = plane(100, seed=4)
     assert same((~FromPolar(Known(*RING), 1.0)).contract(boxes), from_polar(separator(*RING), 1.0).inner.contract(boxes))

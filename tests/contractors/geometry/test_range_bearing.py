@@ -59,6 +59,7 @@ def points() -> FloatArray:
     return np.array(list(solutions(4000, 1)))
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("seed", range(5))
 def test_a_point_that_satisfies_the_relation_is_never_lost(points: FloatArray, seed: int) -> None:
     lower, upper = grown(points, seed)
@@ -67,6 +68,7 @@ def test_a_point_that_satisfies_the_relation_is_never_lost(points: FloatArray, s
     assert not lost.any(), (lower[lost][:2], upper[lost][:2], points[lost][:2])
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("seed", range(3))
 def test_the_result_is_at_least_as_narrow_as_the_input(points: FloatArray, seed: int) -> None:
     shifted = points + np.random.default_rng(seed).normal(size=(len(points), 7, 1)) * 0.3

@@ -107,6 +107,7 @@ def test_unbounded_empty_and_point_boxes() -> None:
     assert (narrowed.upper[[1, 3]] == -INF).all()
 
 
+@pytest.mark.many
 def test_many_segments_are_the_union_of_each() -> None:
     rng = np.random.default_rng(3)
     starts = rng.uniform(0, 10, (300, 3))

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from ial.contractors.intervals.angle import contains_angle, direction, intersect_angle, shift_angle, wrap_angle
 from ial.contractors.intervals.trigonometric import PI_UPPER, TWO_PI_LOWER
+from tests.cases import cases
 from tests.contractors.oracles import EMPTY, ENTIRE
 
 CIRCLE = (-PI_UPPER, PI_UPPER)
@@ -77,7 +78,7 @@ def test_containing_no_angle_and_every_angle() -> None:
 def test_congruent_numbers_are_never_lost() -> None:
     rng = np.random.default_rng(1)
     with mpmath.workdps(60):
-        for _ in range(3000):
+        for _ in range(cases(3000, 100)):
             number = rng.uniform(-20, 20)
             exact = mpmath.mpf(number) - int(rng.integers(-4, 5)) * 2 * mpmath.pi
             low = math.nextafter(float(exact) - rng.choice([0, 1e-3, 1, 3]), -math.inf)
@@ -89,7 +90,7 @@ def test_congruent_numbers_are_never_lost() -> None:
 
 def test_congruent_numbers_are_found_as_a_slow_search_finds_them() -> None:
     rng = np.random.default_rng(2)
-    for _ in range(2000):
+    for _ in range(cases(2000, 100)):
         lower, low = rng.uniform(-20, 20, 2)
         upper, high = lower + rng.choice([0.1, 3, 20]), low + rng.uniform(0, 6)
         copies = [(low + k * 2 * math.pi, high + k * 2 * math.pi) for k in range(-15, 16)]
@@ -116,7 +117,7 @@ def test_directions_cross_the_cut() -> None:
 
 def test_directions_of_points_of_a_box_are_never_lost() -> None:
     rng = np.random.default_rng(3)
-    bounds = np.sort(rng.choice([0.0, -0.0, 1.0, -1.0, 2.0, -3.0, 1e-300, 0.5], size=(3000, 2, 2)), axis=2)
+    bounds = np.sort(rng.choice([0.0, -0.0, 1.0, -1.0, 2.0, -3.0, 1e-300, 0.5], size=(cases(3000, 100), 2, 2)), axis=2)
     for (yl, yu), (xl, xu) in bounds.tolist():
         for y, x in ((yl, xl), (yl, xu), (yu, xl), (yu, xu), (0.5 * (yl + yu), 0.5 * (xl + xu))):
             if x or y:
@@ -126,7 +127,7 @@ def test_directions_of_points_of_a_box_are_never_lost() -> None:
 def test_the_angle_of_a_corner_is_enclosed_exactly_across_the_cut_too() -> None:
     random = np.random.default_rng(4)
     with mpmath.workdps(40):
-        for _ in range(2000):
+        for _ in range(cases(2000, 100)):
             yl, yu, xl, xu = *sorted(random.uniform(-1.0, 1.0, 2).tolist()), *sorted(random.uniform(-1.0, 0.3, 2).tolist())
             low, high = direction(yl, yu, xl, xu)
             crosses = yl < 0.0 <= yu and xl < 0.0

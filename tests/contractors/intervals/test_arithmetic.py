@@ -9,10 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ial.contractors.intervals import arithmetic
+from tests.cases import cases
 from tests.contractors import itf1788
 from tests.contractors.oracles import EMPTY, ENTIRE, LARGEST, ORACLES, SPECIAL, TINY, Pairs, intervals, kernels_of, numbers, rows, tight
 
-COUNT = 10_000
+COUNT = cases(10_000, 200)
 KERNELS = kernels_of(arithmetic)
 ITF1788 = {
     "add": arithmetic.add,

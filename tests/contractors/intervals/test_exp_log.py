@@ -2,9 +2,10 @@ import mpmath
 import numpy as np
 
 from ial.contractors.intervals.exp_log import exp_number, log_number
+from tests.cases import cases
 from tests.contractors.oracles import hard_numbers, numbers
 
-COUNT = 1000
+COUNT = cases(1000, 100)
 
 
 def test_exponentials_have_the_error_they_state() -> None:

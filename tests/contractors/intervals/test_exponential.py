@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from ial.contractors.intervals import exponential
+from tests.cases import cases
 from tests.contractors import itf1788
 from tests.contractors.oracles import EMPTY, ENTIRE, LARGEST, ORACLES, TINY, hard_intervals, hard_numbers, intervals, kernels_of, wider
 
-COUNT = 10_000
+COUNT = cases(10_000, 200)
 KERNELS = kernels_of(exponential)
 
 

@@ -5,10 +5,11 @@ import numpy as np
 import pytest
 
 from ial.contractors.intervals import integer
+from tests.cases import cases
 from tests.contractors import itf1788
 from tests.contractors.oracles import EMPTY, hard_intervals, intervals, kernels_of, wider
 
-COUNT = 10_000
+COUNT = cases(10_000, 200)
 KERNELS = kernels_of(integer)
 ITF1788 = {
     "sign": integer.sign,

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from ial.contractors.intervals import powers
+from tests.cases import cases
 from tests.contractors import itf1788
 from tests.contractors.oracles import (
     EMPTY,
@@ -23,7 +24,7 @@ from tests.contractors.oracles import (
     wider,
 )
 
-COUNT = 10_000
+COUNT = cases(10_000, 200)
 
 
 def results(kernel: Any, operand: Any, exponent: int) -> Any:
@@ -82,6 +83,7 @@ def test_itf1788_vectors_are_contained(operation: str, kernel: Any, at_least: in
     assert not itf1788.missed(itf1788_folder, operation, called, tight=False)
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("exponent", [2**40 + 1, 2**53 + 1, 2**63 - 1, -(2**50), -(2**63)])
 def test_huge_exponents_lose_nothing(exponent: int) -> None:
     rng = np.random.default_rng(9)

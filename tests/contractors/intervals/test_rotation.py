@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from ial.contractors.intervals.rotation import rotate, turn_point
 from ial.contractors.intervals.trigonometric import cos, sin, sincos
+from tests.cases import cases
 
 lengths = st.floats(1e-140, 1e6) | st.floats(-1e6, -1e-140) | st.sampled_from([0.0, 1.0, -1.0, 1e-9])
 angles = st.floats(-7.0, 7.0) | st.sampled_from([0.25 * math.pi * k for k in range(-8, 9)])
@@ -41,7 +42,7 @@ def test_a_turned_point_stays_in_its_box(x: float, y: float, lower: float, width
 def test_points_at_random_are_turned_without_loss_and_boxes_are_tight() -> None:
     random = np.random.default_rng(0)
     with mpmath.workdps(50):
-        for _ in range(3000):
+        for _ in range(cases(3000, 100)):
             x, y = (random.uniform(-1.0, 1.0, 2) * 10.0 ** random.integers(-3, 6)).tolist()
             theta = float(random.uniform(-7.0, 7.0))
             s, c = sincos(theta)

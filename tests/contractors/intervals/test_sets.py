@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from ial.contractors.intervals import sets
+from tests.cases import cases
 from tests.contractors import itf1788
 from tests.contractors.oracles import EMPTY, ENTIRE, LARGEST, TINY, Pairs, intervals, kernels_of, wider
 
-COUNT = 10_000
+COUNT = cases(10_000, 1000)
 
 ITF1788 = {
     "intersection": sets.intersect,
@@ -113,8 +114,8 @@ def test_what_is_no_real_number_is_no_member(x: float) -> None:
 def test_every_state_of_overlap_has_its_converse() -> None:
     a, b = intervals(COUNT, 8), intervals(COUNT, 9)
     bounds = np.sort(np.random.default_rng(10).integers(0, 4, (COUNT, 2, 2)).astype(float), axis=2)
-    a = tuple(np.concatenate([a[i], bounds[:, 0, i]]) for i in range(2))
-    b = tuple(np.concatenate([b[i], bounds[:, 1, i]]) for i in range(2))
+    a = tuple(np.concatenate([a[i], bounds[:, 0, i], [EMPTY[i]]]) for i in range(2))
+    b = tuple(np.concatenate([b[i], bounds[:, 1, i], [EMPTY[i]]]) for i in range(2))
     ours = answers(sets.overlap, a, b)
     converse = np.array([0, 2, 1, *range(15, 2, -1)])
     assert (answers(sets.overlap, b, a) == converse[ours]).all()

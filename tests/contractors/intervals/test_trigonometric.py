@@ -16,10 +16,11 @@ from ial.contractors.intervals.trigonometric import (
     TWO_PI_LOWER,
     TWO_PI_UPPER,
 )
+from tests.cases import cases
 from tests.contractors import itf1788
 from tests.contractors.oracles import EMPTY, ENTIRE, LARGEST, ORACLES, TINY, FloatArray, hard_intervals, intervals, kernels_of, wider
 
-COUNT = 10_000
+COUNT = cases(10_000, 200)
 KERNELS = kernels_of(trigonometric)
 PERIODIC = [trigonometric.sin, trigonometric.cos, trigonometric.tan]
 

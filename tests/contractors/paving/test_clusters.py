@@ -9,6 +9,7 @@ from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.angle import contains_angle
 from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.contractors.paving.clusters import Clusters, cluster
+from tests.cases import cases
 
 mpmath.mp.prec = 200
 TURN = 2 * mpmath.pi
@@ -87,14 +88,14 @@ def shortest_arc(boxes: Boxes) -> float:
 @pytest.mark.slow
 def test_components_and_hulls_equal_those_of_all_pairs() -> None:
     several = 0
-    for seed in range(120):
+    for seed in range(cases(120, 6)):
         boxes = random_boxes(np.random.default_rng(seed))
         clusters = cluster_poses(boxes)
         assert clusters.labels.tolist() == twin(boxes), seed
         assert len(clusters) == clusters.labels.max() + 1
         hulls_hold(boxes, clusters)
         several += 1 < len(clusters) < len(boxes)
-    assert several > 50
+    assert several > cases(50, 2)
 
 
 CELL = [(0.0, 1.0), (0.0, 1.0), (0.0, 0.5)]
@@ -211,7 +212,7 @@ def sizes_of_all_kinds(random: np.random.Generator, rows: int, dimension: int) -
 @pytest.mark.parametrize("dimension", [1, 2, 3, 4, 6])
 def test_components_of_boxes_of_any_dimension_equal_those_of_all_pairs(dimension: int) -> None:
     several = 0
-    for seed in range(40):
+    for seed in range(cases(40, 4)):
         random = np.random.default_rng(seed)
         boxes = sizes_of_all_kinds(random, int(random.integers(1, 12 * 2 ** min(dimension - 1, 4))), dimension)
         clusters = cluster(boxes)
@@ -221,7 +222,7 @@ def test_components_of_boxes_of_any_dimension_equal_those_of_all_pairs(dimension
             assert (clusters.hulls.lower[label] == hull.lower[0]).all()
             assert (clusters.hulls.upper[label] == hull.upper[0]).all()
         several += 1 < len(clusters) < len(boxes)
-    assert several > 10
+    assert several >= cases(11, 1)
 
 
 @pytest.mark.parametrize("circular", [(0,), (1,), (0, 1)])
@@ -263,7 +264,7 @@ def test_boxes_that_cannot_be_clustered_are_refused(boxes: Boxes, circular: tupl
 def test_any_axis_may_be_the_circular_one(axis: int) -> None:
     """Rows are compared in the order of a curve that follows the last axis first; boxes across the cut come in any order along another."""
     order = [2, 0, 1] if axis == 0 else [0, 2, 1]
-    for seed in range(150):
+    for seed in range(cases(150, 8)):
         boxes = random_boxes(np.random.default_rng(seed))
         clusters = cluster(Boxes(boxes.lower[:, order], boxes.upper[:, order]), circular=(axis,))
         expected = cluster_poses(boxes)

@@ -412,6 +412,7 @@ def test_a_contractor_is_a_separator_that_proves_nothing_inside() -> None:
     assert pair.nodes == alone.nodes
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("order", ORDERS, ids=["depth", "breadth", "best", "key"])
 def test_a_separator_paving_does_not_depend_on_the_number_of_threads(order: Order, threads: Callable[[int | None], None]) -> None:
     ring = Ring(np.array([0.3, 0.1]), 0.5, 1.7)
@@ -425,6 +426,7 @@ def test_a_separator_paving_does_not_depend_on_the_number_of_threads(order: Orde
             assert getattr(other, part).upper.tobytes() == getattr(pavings[0], part).upper.tobytes()
 
 
+@pytest.mark.many
 def test_a_limit_on_memory_keeps_the_boxes_within_it() -> None:
     box = Boxes.of([(-3, 3), (-3, 3)])
     ring = Ring(np.array([0.1, 0.2]), 0.2, 2.5)

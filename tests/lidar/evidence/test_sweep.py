@@ -153,6 +153,7 @@ def test_a_robot_that_stands_between_two_messages_is_not_lost(deskew: bool) -> N
     assert Localizer(OccupancyGrid(cells, 0.05), config=config).update(step.motion, step.scan).poses.contains(at)
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("error", [1e15, 1e40, 1e160, 1.7e308])
 def test_motion_that_may_lead_anywhere_excludes_nothing(error: float) -> None:
     grid = floor_plan(6.0, 5.0, 0.1, 2)

@@ -21,9 +21,10 @@ from ial.pose import Pose
 from ial.study.good_beams import bad_beams
 from ial.study.obstacles import Obstacles
 from ial.study.used_beams import UsedBeams
+from tests.cases import cases
 from tests.lidar.twin import World
 
-WORLDS = 200
+WORLDS = cases(200, 8)
 AROUND = 12  # cells of the map around a world, so that every robot is in it
 
 
@@ -188,7 +189,7 @@ def test_outer_faces_are_moved_to_the_outermost_pieces_that_fit() -> None:
 
 @pytest.mark.parametrize("threads", [1, 2])
 def test_nothing_depends_on_threads_and_on_the_order_of_cells(threads: int) -> None:
-    for seed in range(20):
+    for seed in range(cases(20, 2)):
         case = Case(seed)
         order = np.random.default_rng(seed).permutation(len(case.cells))
         set_threads(threads)

@@ -12,9 +12,10 @@ from ial.lidar.search.cell_counts import count_cells
 from ial.lidar.search.lattice import Lattice, divide
 from ial.lidar.search.scan_contractor import ScanContractor
 from ial.maps.grids.cell_index import CellIndex
+from tests.cases import cases
 from tests.lidar.twin import World
 
-WORLDS = 400
+WORLDS = cases(400, 8)
 
 
 class Case:
@@ -69,7 +70,7 @@ def test_the_cell_that_holds_a_consistent_pose_is_kept_and_its_count_is_not_too_
 def test_cells_are_kept_like_boxes_of_their_parts() -> None:
     """A part is a hair wider for the one than for the other, so a few cells more may be kept, and none less."""
     kept = more = 0
-    for seed in range(150):
+    for seed in range(cases(150, 12)):
         case = Case(seed)
         world, lattice = case.world, case.lattice
         most = int(0.3 * len(world.hits()))
@@ -88,7 +89,7 @@ def test_cells_are_kept_like_boxes_of_their_parts() -> None:
             assert tuple(row) in names or not wanted, f"world {seed} lost a cell"
             more += tuple(row) in names and not wanted
             kept += wanted
-    assert kept > 2000
+    assert kept > cases(2000, 100)
     assert more < 0.002 * kept
 
 
@@ -113,7 +114,7 @@ def test_cells_outside_the_domain_are_dropped_on_any_number_of_threads(threads: 
 
 
 @pytest.mark.parametrize("resolution", [0.05, 1.0 / 3.0, 0.0333, 0.1])
-@pytest.mark.parametrize("at", [100, 4_096, 32_700])
+@pytest.mark.parametrize("at", [100, 4_096, pytest.param(32_700, marks=pytest.mark.many)])
 @pytest.mark.parametrize("axis", [0, 1])
 def test_far_from_the_corner_of_a_map_the_parts_of_a_cell_drift_against_its_cells_and_no_pose_is_lost(
     axis: int, at: int, resolution: float

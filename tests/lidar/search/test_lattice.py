@@ -191,6 +191,7 @@ def test_the_width_of_a_cell_is_the_wanted_one_to_seven_digits(position: float) 
     assert position <= Lattice(position, 0.1).position_m <= Lattice(position, 0.1).widths[0] <= position * (1.0 + 2e-6)
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("position", [0.1, 1.0 / 3.0, 0.0333, 0.05, 1.0, 0.7])
 def test_a_double_beside_the_edge_of_a_cell_is_in_the_cell_on_its_side(position: float) -> None:
     lattice = Lattice(position, 1.0)
@@ -207,7 +208,7 @@ def test_a_double_beside_the_edge_of_a_cell_is_in_the_cell_on_its_side(position:
                 assert box.lower[0, axis] < row[axis] < box.upper[0, axis]
 
 
-@pytest.mark.parametrize("heading", [0.5, 0.1, 0.02, 0.003])
+@pytest.mark.parametrize("heading", [0.5, 0.1, 0.02, pytest.param(0.003, marks=pytest.mark.many)])
 def test_a_heading_a_bit_beyond_the_edge_of_a_layer_takes_the_layer_behind_it(heading: float) -> None:
     lattice = Lattice(1.0, heading)
     edges = layer_edges(lattice.layers)[1:-1]

@@ -89,6 +89,7 @@ def test_answers_do_not_depend_on_sections(seed: int, outliers: int | str, small
     assert len(in_sections.model.sections._made) == 4
 
 
+@pytest.mark.many
 def test_a_hypothesis_that_lies_in_several_sections_is_refined_in_each(small_sections: None) -> None:
     config = replace(CONFIG, precision=Precision(0.1, 0.05, halvings=2))
     localizer = Localizer(world(), config=config)
@@ -105,6 +106,7 @@ def test_a_hypothesis_that_lies_in_several_sections_is_refined_in_each(small_sec
     assert across >= 3
 
 
+@pytest.mark.many
 def test_a_limit_leaves_a_coarser_answer_with_the_truth_in_it(small_sections: None) -> None:
     config = LocalizerConfig(bounds=CONFIG.bounds, outliers=5, max_boxes=300)
     localizer = Localizer(world(), config=config)
@@ -240,6 +242,7 @@ def corridor(rows: int, columns: int, resolution: float) -> OccupancyGrid:
     return OccupancyGrid(cells, resolution)
 
 
+@pytest.mark.many
 @pytest.mark.parametrize(
     ("rows", "columns", "resolution", "position", "one"),
     [
@@ -289,6 +292,7 @@ def test_a_precision_too_fine_for_the_map_is_refused_with_its_own_numbers(
     Localizer(grid, config=replace(CONFIG, precision=Precision(float(least))))
 
 
+@pytest.mark.many
 def test_beams_that_reach_too_far_for_a_fine_precision_are_refused_with_theirs() -> None:
     model = Localizer(corridor(3000, 3000, 0.05), config=replace(CONFIG, precision=Precision(0.004))).model
     ends = np.array([[40.0, 0.0]])

@@ -9,6 +9,7 @@ from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.contractors.threads import set_threads
 from ial.datasets.motion import Motion
 from ial.lidar.search.prediction import in_rows, move
+from tests.cases import cases
 
 mpmath.mp.prec = 300
 TURN = 2 * mpmath.pi
@@ -50,7 +51,7 @@ def between(lower: FloatArray, upper: FloatArray, random: np.random.Generator) -
 
 
 def test_a_moved_pose_lies_in_the_moved_box() -> None:
-    for seed in range(60):
+    for seed in range(cases(60, 3)):
         random = np.random.default_rng(seed)
         boxes, motion = random_boxes(random, 20), random_motion(random)
         after = move(boxes, motion)
@@ -63,7 +64,7 @@ def test_a_moved_pose_lies_in_the_moved_box() -> None:
 
 
 def test_headings_keep_the_form_of_angles() -> None:
-    for seed in range(60):
+    for seed in range(cases(60, 3)):
         random = np.random.default_rng(seed)
         after = move(random_boxes(random, 50), random_motion(random))
         assert (np.abs(after.lower[:, 2]) <= PI_UPPER).all()
@@ -103,7 +104,7 @@ def test_no_boxes_stay_no_boxes() -> None:
 
 
 def test_the_number_of_threads_changes_no_bit() -> None:
-    boxes, motion = random_boxes(np.random.default_rng(4), 5000), random_motion(np.random.default_rng(5))
+    boxes, motion = random_boxes(np.random.default_rng(4), cases(5000, 1000)), random_motion(np.random.default_rng(5))
     outcomes = []
     for threads in (1, 2, 3):
         set_threads(threads)

@@ -8,9 +8,10 @@ from ial.contractors.threads import set_threads
 from ial.lidar.configuration.config import FreeSpace
 from ial.lidar.evidence.beams import Beams, select_beams
 from ial.lidar.search.scan_contractor import ScanContractor
+from tests.cases import cases
 from tests.lidar.twin import World
 
-WORLDS = 600
+WORLDS = cases(600, 30)
 
 
 def contractor(world: World, outliers: int) -> ScanContractor:
@@ -82,7 +83,7 @@ def test_a_box_from_all_of_which_too_many_beams_clearly_miss_is_emptied() -> Non
 @pytest.mark.parametrize("threads", [1, 2, 3])
 def test_a_batch_says_of_each_box_what_the_box_alone_says(threads: int) -> None:
     world, random = worlds(17)[0]
-    boxes = Boxes.concatenate([world.box_around(random) for _ in range(2000)])
+    boxes = Boxes.concatenate([world.box_around(random) for _ in range(cases(2000, 60))])
     moved = random.uniform(-0.5, 0.5, (len(boxes), 3))
     boxes = Boxes(boxes.lower + moved, boxes.upper + moved)
     scan = contractor(world, len(world.hits()) // 3)
@@ -141,7 +142,7 @@ def test_silent_beams_change_nothing_where_fewer_may_be_bad_than_hits() -> None:
             assert np.array_equal(with_silent.lower, plain.lower)
             assert np.array_equal(with_silent.upper, plain.upper)
             narrowed += not np.array_equal(with_silent.lower, boxes.lower)
-    assert narrowed > 50
+    assert narrowed > cases(50, 5)
 
 
 @pytest.mark.slow

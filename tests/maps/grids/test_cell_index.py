@@ -16,6 +16,7 @@ from ial.errors import MapError
 from ial.maps.grids.cell_contractor import CellContractor
 from ial.maps.grids.cell_index import CellIndex, count, meets
 from ial.maps.grids.occupancy_grid import OCCUPIED, OccupancyGrid
+from tests.cases import cases
 
 RESOLUTIONS = (0.05, 0.1, 0.03, 0.02, float(np.float32(0.05)), 1 / 3, 0.5)
 
@@ -161,7 +162,7 @@ def test_a_compact_table_counts_modulo_two_to_the_sixteen() -> None:
     assert compact.cells.bordered.nbytes == full.cells.bordered.nbytes // 2
     assert (compact.cells.bordered == full.cells.bordered.astype(np.uint16)).all()
     rng = np.random.default_rng(8)
-    for _ in range(3000):
+    for _ in range(cases(3000, 200)):
         (row0, row1), (column0, column1) = np.sort(rng.integers(0, 301, 2)), np.sort(rng.integers(0, 401, 2))
         exact, modular = (count(each.cells.table, row0, row1, column0, column1) for each in (full, compact))
         if (row1 - row0) * (column1 - column0) < 2**16:
@@ -170,6 +171,7 @@ def test_a_compact_table_counts_modulo_two_to_the_sixteen() -> None:
             assert modular >= 1
 
 
+@pytest.mark.many
 def test_a_compact_index_never_misses_a_cell() -> None:
     rng = np.random.default_rng(9)
     mask = np.zeros((400, 500), np.bool_)
@@ -206,6 +208,7 @@ def test_endless_empty_and_far_boxes() -> None:
     assert narrowed[[0, 4]].upper.tolist() == [[1.5, 1.0], [1.5, 0.75]]
 
 
+@pytest.mark.many
 def test_large_batches_are_the_same_on_any_number_of_threads() -> None:
     rng = np.random.default_rng(6)
     index = CellIndex(rng.random((200, 300)) < 0.02, 0.05)
@@ -234,7 +237,7 @@ def test_no_occupied_point_of_a_large_box_is_lost() -> None:
     mask = rng.random((40, 50)) < 0.01
     contractor = CellContractor(CellIndex(mask, 0.05))
     row, column = np.argwhere(mask).T
-    for _ in range(200):
+    for _ in range(cases(200, 40)):
         lower = rng.uniform(-0.5, 2, 2)
         box = Boxes(lower[None], (lower + rng.uniform(0, 1.5, 2))[None])
         at = rng.integers(len(row))
@@ -267,7 +270,7 @@ def test_bad_input_is_refused() -> None:
 
 def test_a_part_with_its_origin_answers_as_the_whole_grid_does() -> None:
     random = np.random.default_rng(4)
-    for _ in range(200):
+    for _ in range(cases(200, 40)):
         mask = random.random((30, 40)) < 0.05
         row, column = random.integers(0, 20, 2)
         part = mask[row : row + 10, column : column + 15]

@@ -37,6 +37,7 @@ def test_the_share_of_walls_is_that_of_a_building() -> None:
     assert 0.05 < share < 0.2
 
 
+@pytest.mark.many
 def test_a_scan_tells_places_apart() -> None:
     grid = floor_plan(60.0, 60.0, 0.05, 4)
     rng = np.random.default_rng(9)
