@@ -85,7 +85,8 @@ class OutsideCells(RowContractor):
         self._index = index
         rows, columns = index.cells.table.shape
         areas = np.multiply.outer(np.arange(rows, dtype=np.int32), np.arange(columns, dtype=np.int32))
-        self._table = areas - index.cells.table  # the summed-area table of all other cells
+        # The summed-area table of all other cells, in numbers of the same size: a compact table is one modulo 2¹⁶, and so must this be.
+        self._table = areas.astype(index.cells.table.dtype, copy=False) - index.cells.table
 
     def complement(self) -> CellContractor:
         """Return the contractor of the points in a cell of the set."""

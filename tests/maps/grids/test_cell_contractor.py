@@ -114,3 +114,12 @@ def test_beyond_a_full_grid_the_outside_begins_at_its_exact_edge(resolution: flo
         assert edge - Fraction(math.ulp(99.0)) <= Fraction(float(narrowed.lower[0, 0])) <= edge
         narrowed = outside.contract(Boxes.of([(-1.0, 0.5 * resolution), middle]))
         assert (narrowed.lower[0, 0], narrowed.upper[0, 0]) == (-1.0, 0.0)
+
+
+@pytest.mark.parametrize("compact", [False, True])
+def test_the_outside_of_a_compact_set_loses_no_hole(compact: bool) -> None:
+    """The counts of a compact set begin again at 2¹⁶, between the corners of this box; what is left is the hole in the full grid."""
+    mask = np.ones((300, 300), dtype=np.bool_)
+    mask[257, 257] = False
+    outside = ~CellContractor(CellIndex(mask, 1.0, compact=compact))
+    assert outside.contract(Boxes.of([(255.25, 259.75), (255.25, 259.75)])) == Boxes.of([(257.0, 258.0), (257.0, 258.0)])
