@@ -22,7 +22,7 @@ COUNT = 1_000_000
 ABOUT = f"""\
 {COUNT:,} intervals at once, their middles between −10 and 10 (for `sqrt` from 0 on), their widths up to 1. ial: `Operation.bounds`, with
 the new arrays that it returns. *unequal* counts the results that differ from crival's, which are tight. Each time is the least of five."""
-Bounds = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]
+Pairs = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]
 
 
 def rows(other: Any) -> list[tuple[Operation, Callable[..., Any]]]:
@@ -31,7 +31,7 @@ def rows(other: Any) -> list[tuple[Operation, Callable[..., Any]]]:
     return [*binary, (sqr, other.sqr), (sqrt, other.sqrt), (exp, other.exp), (sin, other.sin), (cos, other.cos)]
 
 
-def intervals(seed: int, least: float) -> Bounds:
+def intervals(seed: int, least: float) -> Pairs:
     """Return random intervals above a number."""
     rng = np.random.default_rng(seed)
     middle, half = rng.uniform(max(-10.0, least), 10.0, COUNT), rng.uniform(0.0, 0.5, COUNT)

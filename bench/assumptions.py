@@ -143,9 +143,9 @@ def line(case: Case, name: str, config: LocalizerConfig, runs: int, scans: int, 
     """Yield the cells of one line."""
     total: Counter[str] = Counter()
     waits: list[int] = []
-    for counts, found in spread(watch, [case] * runs, [config] * runs, range(runs), [scans] * runs):  # type: ignore[misc]
+    for counts, waited in spread(watch, [case] * runs, [config] * runs, range(runs), [scans] * runs):  # type: ignore[misc]
         total += counts
-        waits += found
+        waits += waited
     yield case.name
     yield name
     yield str(total["scans"])

@@ -93,12 +93,12 @@ def words(automaton: Automaton) -> str:
 
 def observations(graph: LabelledGraph, count: int) -> list[int]:
     """Return what a robot observes from the vertex in the middle."""
-    vertex, found = len(graph) // 2, []
+    vertex, bumps = len(graph) // 2, []
     for _ in range(count):
         arc = int(graph.arcs[vertex])
-        found.append(int(arc < 0))
+        bumps.append(int(arc < 0))
         vertex = arc if arc >= 0 else ~arc
-    return found
+    return bumps
 
 
 def small() -> Iterator[tuple[str, ...]]:
@@ -129,9 +129,9 @@ def oracle(raster: Raster) -> Iterator[tuple[str, ...]]:
         arcs[start].setdefault(read, set()).add(end)
     final = set(np.flatnonzero(nondeterministic.final).tolist())
     theirs: Any = NFA(states=set(arcs), input_symbols={"0", "1"}, transitions=arcs, initial_state=0, final_states=final)
-    seconds, found = timed(lambda: DFA.from_nfa(theirs, minify=False), runs=1)
-    traps = [state for state, row in found.transitions.items() if state not in found.final_states and set(row.values()) == {state}]
-    states = len(found.states) - len(traps)
+    seconds, dfa = timed(lambda: DFA.from_nfa(theirs, minify=False), runs=1)
+    traps = [state for state, row in dfa.transitions.items() if state not in dfa.final_states and set(row.values()) == {state}]
+    states = len(dfa.states) - len(traps)
     yield f"automata-lib {version('automata-lib')}", f"{len(graph):,}", f"{seconds:.1f}", f"{states:,}", f"{seconds / ours:.0f}"
 
 

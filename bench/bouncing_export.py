@@ -27,7 +27,7 @@ ABOUT = """\
 A room of 19 cells with 8 headings, 152 configurations, as the environments of the paper's tables; it is one of those in `bouncing.py`.
 *Flash* and *RAM* are computed from the tables; *compiled* is what `size -A` says of a part of a program that only steps (`step` and
 `colour`), and of one that uses every table. Every other random stream is possible in the room as far as the filter can tell; the others
-are so up to a random observation, and behind it zeros and ones with a share that varies from stream to stream. The states behind all
+are so up to a random observation, and after it zeros and ones with a share that varies from stream to stream. The states after all
 observations are compared one by one."""
 
 BLOCKED = [(0, 0), (0, 1), (0, 2), (3, 3), (4, 4), (2, 2)]
@@ -107,11 +107,11 @@ def sections(folder: Path, program: str) -> str:
     (folder / "part.c").write_text(program)
     subprocess.run([*COMPILER, "-std=c99", "-Os", "-c", "part.c", "-o", "part.o"], cwd=folder, check=True)
     listed = subprocess.run(["size", "-A", "part.o"], cwd=folder, check=True, capture_output=True, text=True).stdout
-    found = dict.fromkeys((".text", ".rodata", ".bss"), 0)
+    sizes = dict.fromkeys((".text", ".rodata", ".bss"), 0)
     for name, size in re.findall(r"^(\.[a-z]+)\S*\s+(\d+)", listed, re.MULTILINE):
-        if name in found:
-            found[name] += int(size)
-    return f"{found['.text']} / {found['.rodata']} / {found['.bss']}"
+        if name in sizes:
+            sizes[name] += int(size)
+    return f"{sizes['.text']} / {sizes['.rodata']} / {sizes['.bss']}"
 
 
 def sizes(folder: Path) -> Iterator[tuple[str, ...]]:
@@ -137,7 +137,7 @@ def streams(table: FilterTable, count: int, length: int, seed: int) -> np.typing
 
 
 def python_states(table: FilterTable, seen: np.typing.NDArray[np.uint8]) -> np.typing.NDArray[np.int64]:
-    """Return the states behind each observation."""
+    """Return the states after each observation."""
     return np.array([table.run(stream) for stream in seen.tolist()])
 
 
@@ -152,9 +152,9 @@ def replays(folder: Path, count: int, length: int) -> Iterator[tuple[str, ...]]:
         for _ in range(5):
             done = subprocess.run([folder / "replay", str(count), str(length)], input=seen.tobytes(), capture_output=True, check=True)
             times.append(float(done.stderr))
-        found = np.frombuffer(done.stdout, dtype=np.uint8).reshape(seen.shape)
+        replayed = np.frombuffer(done.stdout, dtype=np.uint8).reshape(seen.shape)
         seconds, states = timed(python_states, exported.table, seen, runs=1)
-        different = int((states != found).any(axis=1).sum())
+        different = int((states != replayed).any(axis=1).sum())
         trapped = int((states == exported.table.trap).any(axis=1).sum())
         if different:
             sys.exit(f"{name}: {different} streams differ")

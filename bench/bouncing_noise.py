@@ -56,8 +56,8 @@ def rows() -> Iterator[tuple[str, ...]]:
     for name, bounds in BOUNDS.items():
         seconds, graph = timed(lambda bounds=bounds: NoisyMap(HALL, CELL, HEADINGS, bounds).graph, runs=1)
         try:
-            took, found = timed(determinize_sets, graph, MOST, runs=1)
-            states, words = f"{len(found):,}", f"{took:.1f}"
+            took, outcome = timed(determinize_sets, graph, MOST, runs=1)
+            states, words = f"{len(outcome):,}", f"{took:.1f}"
         except FilterError:
             states, words = f"> {MOST:,}", "–"
         model, left, times = NoisyModel(graph), [], []
@@ -86,8 +86,8 @@ def small() -> Iterator[tuple[str, ...]]:
     for name, bounds in BOUNDS.items():
         graph = NoisyMap(room, Fraction(1, 2), headings, bounds).graph
         try:
-            seconds, found = timed(determinize_sets, graph, MOST, runs=1)
-            yield name, f"{graph.arcs}", f"{len(found):,}", f"{seconds:.3f}", f"{np.median(found.sizes):.0f}"
+            seconds, outcome = timed(determinize_sets, graph, MOST, runs=1)
+            yield name, f"{graph.arcs}", f"{len(outcome):,}", f"{seconds:.3f}", f"{np.median(outcome.sizes):.0f}"
         except FilterError:
             yield name, f"{graph.arcs}", f"> {MOST:,}", "–", "–"
 

@@ -58,14 +58,14 @@ def groups_and_transient(graph: LabelledGraph) -> tuple[int, int]:
 
 def figure_7(corner: Corner) -> dict[str, IntArray]:
     """Return r and the longest transient of 100 runs for each kind, int64 of shape (runs, 2)."""
-    found = {}
+    groups = {}
     for number, kind in enumerate(KINDS):
         rasters = [figure_6(kind, 1000 * number + run) for run in range(RUNS)]
-        found[kind] = np.array([groups_and_transient(mapped(raster, 90, 360, corner, merge=True)) for raster in rasters])
+        groups[kind] = np.array([groups_and_transient(mapped(raster, 90, 360, corner, merge=True)) for raster in rasters])
         direct = groups_and_transient(mapped(rasters[0], 90, 360, corner))
-        if direct != tuple(found[kind][0]):
-            raise AssertionError(f"{kind}: merged headings gave {found[kind][0]}, all 360 headings {direct}")
-    return found
+        if direct != tuple(groups[kind][0]):
+            raise AssertionError(f"{kind}: merged headings gave {groups[kind][0]}, all 360 headings {direct}")
+    return groups
 
 
 def spread(values: IntArray) -> str:
@@ -74,22 +74,22 @@ def spread(values: IntArray) -> str:
     return f"**{middle:.0f}** ({least:.0f}, {low:.0f}–{high:.0f}, {most:.0f})"
 
 
-def rows_of_figure_7(found: dict[str, dict[str, IntArray]]) -> Iterator[tuple[str, ...]]:
+def rows_of_figure_7(groups: dict[str, dict[str, IntArray]]) -> Iterator[tuple[str, ...]]:
     """Yield a row for each kind and corner policy."""
-    for corner, kinds in found.items():
+    for corner, kinds in groups.items():
         for kind, values in kinds.items():
             r, transient = FIGURE_7[kind]
             yield f"{kind}: {KINDS[kind]}", corner, spread(values[:, 0]), str(r), spread(values[:, 1]), str(transient)
 
 
-def draw(found: dict[str, IntArray], path: Path) -> None:
+def draw(groups: dict[str, IntArray], path: Path) -> None:
     """Write the two box plots of figure 7."""
     figure = Figure(figsize=(9.0, 3.8), facecolor="white", layout="constrained")
     FigureCanvasAgg(figure)
     titles = ("number of periodic groups r", "length of the longest transient, steps")
     for column, (axes, title) in enumerate(zip(figure.subplots(1, 2), titles, strict=True)):
         axes.boxplot(
-            [values[:, column] for values in found.values()],
+            [values[:, column] for values in groups.values()],
             widths=0.55,
             patch_artist=True,
             boxprops={"facecolor": "#cfe0ee", "edgecolor": "#1b6ca8"},
@@ -98,7 +98,7 @@ def draw(found: dict[str, IntArray], path: Path) -> None:
             capprops={"color": "#1b6ca8"},
             flierprops={"marker": "o", "markersize": 3.5, "markerfacecolor": "#e8a33d", "markeredgecolor": "none"},
         )
-        axes.set_xticks(range(1, len(found) + 1), list(found))
+        axes.set_xticks(range(1, len(groups) + 1), list(groups))
         axes.set_title(title, loc="left", fontsize=10)
         axes.grid(axis="y", color="#e6e9ed", linewidth=0.8)
         axes.set_axisbelow(True)
@@ -190,11 +190,11 @@ def main() -> None:
         "The median in the specification is that of 12 runs.\n"
     )
     corners: tuple[Corner, ...] = ("endpoint", "segment")
-    found = {corner: figure_7(corner) for corner in corners}
+    groups = {corner: figure_7(corner) for corner in corners}
     head = ("inside", "corner", "groups r", "specification", "longest transient", "specification")
-    report.table(head, rows_of_figure_7(found))
+    report.table(head, rows_of_figure_7(groups))
     if chosen.picture is not None:
-        draw(found["endpoint"], chosen.picture)
+        draw(groups["endpoint"], chosen.picture)
     report.say(
         f"Tables I and II, 152 configurations: 19 cells with 8 headings. Ours: {LABS} random environments, median (least, quartiles, "
         "greatest). The paper's conversion took 20 to 71 s in JFLAP.\n"

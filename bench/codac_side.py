@@ -74,10 +74,10 @@ def polar(boxes: list[list[list[float]]]) -> dict[str, Any]:
     """Contract boxes over x, y, r, θ one by one."""
     contractor = cd.CtcPolar()
     rows = [[cd.Interval(*bounds) for bounds in row] for row in boxes]
-    elapsed, found = timed(lambda: [contractor.contract(*row) for row in rows])
+    elapsed, contracted = timed(lambda: [contractor.contract(*row) for row in rows])
     return {
         "seconds": elapsed,
-        "boxes": [None if any(side.is_empty() for side in row) else [[s.lb(), s.ub()] for s in row] for row in found],
+        "boxes": [None if any(side.is_empty() for side in row) else [[s.lb(), s.ub()] for s in row] for row in contracted],
     }
 
 

@@ -119,18 +119,18 @@ def main() -> int:
         if (unedited := outcome(tree, cache, tests)) != "**SURVIVED**":
             print(f"tests fail without any edit: {unedited}")
             return 2
-        found = []
+        outcomes = []
         for number, edit in enumerate(edits, 1):
             file = tree / edit.path
             text = file.read_text(encoding="utf-8")
             file.write_text(text.replace(edit.old, edit.new), encoding="utf-8")
             with tempfile.TemporaryDirectory() as own:
                 compiled = any(mark in text for mark in _COMPILED)
-                found.append(outcome(tree, Path(own) if compiled else cache, edit.tests))
+                outcomes.append(outcome(tree, Path(own) if compiled else cache, edit.tests))
             file.write_text(text, encoding="utf-8")
-            print(f"{number}/{len(edits)} {edit.cells} {found[-1]}", flush=True)
-            note(options.report, listed, edit, found[-1])
-    return int(any(each.startswith("**") for each in found))
+            print(f"{number}/{len(edits)} {edit.cells} {outcomes[-1]}", flush=True)
+            note(options.report, listed, edit, outcomes[-1])
+    return int(any(each.startswith("**") for each in outcomes))
 
 
 def known(report: Path) -> dict[str, str]:
@@ -142,13 +142,13 @@ def known(report: Path) -> dict[str, str]:
 def note(report: Path, edits: list[Edit], edit: Edit, outcome: str) -> None:
     """Write into a report what became of an edit; what it says about edits that are listed no more is left out."""
     rows = known(report) | {edit.cells: f"{edit.cells} {outcome} |"}
-    found = [rows.get(each.cells, f"{each.cells} not tried |") for each in edits]
-    tried = sum(not row.endswith(" not tried |") for row in found)
+    lines = [rows.get(each.cells, f"{each.cells} not tried |") for each in edits]
+    tried = sum(not row.endswith(" not tried |") for row in lines)
     report.write_text(
         "# Edits that break a bound, and the tests that see them\n\n"
         "Made by `bench/edits.py` from `bench/edits.toml`. Each row is an edit of one line, made in a copy of the checkout.\n\n"
-        f"{len(found)} edits, {tried} tried, {sum('| **' in row for row in found)} survived.\n\n"
-        "| file | old | new | killed by |\n| --- | --- | --- | --- |\n" + "\n".join(found) + "\n",
+        f"{len(lines)} edits, {tried} tried, {sum('| **' in row for row in lines)} survived.\n\n"
+        "| file | old | new | killed by |\n| --- | --- | --- | --- |\n" + "\n".join(lines) + "\n",
         encoding="utf-8",
     )
 

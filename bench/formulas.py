@@ -42,12 +42,12 @@ def curve(t: Any, x: Any) -> list[Any]:
 
 def broyden(t: Any, x: Any) -> list[Any]:
     """Return Broyden's tridiagonal system (Moré, Garbow, Hillstrom 1981, no. 30) in six variables."""
-    found = []
+    residuals = []
     for i in range(6):
         value = (3.0 - 2.0 * x[i]) * x[i] + 1.0
         value = value - x[i - 1] if i > 0 else value
-        found.append(value - 2.0 * x[i + 1] if i < 5 else value)
-    return found
+        residuals.append(value - 2.0 * x[i + 1] if i < 5 else value)
+    return residuals
 
 
 def kinematics(t: Any, x: Any) -> list[Any]:
@@ -65,8 +65,8 @@ def kinematics(t: Any, x: Any) -> list[Any]:
 
 def equations(name: str, t: Any, x: Any) -> list[Any]:
     """Return the left sides of a system's equations."""
-    found: list[Any] = {"bronstein": bronstein, "curve": curve, "broyden": broyden, "kinematics": kinematics}[name](t, x)
-    return found
+    residuals: list[Any] = {"bronstein": bronstein, "curve": curve, "broyden": broyden, "kinematics": kinematics}[name](t, x)
+    return residuals
 
 
 def distance(t: Any, x: Any, beacon: Any) -> Any:

@@ -20,11 +20,11 @@ from ial.study.containment import Containment
 
 ABOUT = """\
 Each kidnapping joins two places of a recording, drawn at random; odometry and clock go on. The localizer begins 12 processed scans before
-with nothing known, and is watched for 20 scans behind. Odd scans and maps of the even ones; all scans of the MRPT loop, whose map is of the
+with nothing known, and is watched for 20 scans. Odd scans and maps of the even ones; all scans of the MRPT loop, whose map is of the
 same run and whose reference is a pseudo-reference.
 
 *Any*: at least 2 m away. *Near*: 1 to 3 m. *Look-alike*: at least 2 m away, to a scan that alone would also fit where the robot believes
-to be. *Repeated*: three in a row, 15 processed scans apart; what is counted is the last one. *Delay*: processed scans behind the jump until
+to be. *Repeated*: three in a row, 15 processed scans apart; what is counted is the last one. *Delay*: processed scans after the jump until
 one is reported as `lost` or `blind`; 0 is the first one. *Recovered*: localized within those 20 scans at a place that holds the reference.
 *Silent*: scans localized at a place that does not hold it. *False alarms*: `lost` and `blind` scans in the whole recording without
 kidnapping, for each hour of it. `fixed 12 %` has ±0.05 m, ±0.05 m, no free space and 12 % outliers; `restart` trusts the scan that rejected
@@ -65,27 +65,27 @@ def carried(source: Source, localizer: Localizer, jumps: list[Kidnapping]) -> Ou
     for earlier, later in itertools.pairwise(jumps):
         at += later.at - earlier.to + 1
     for step, estimate in localize(moved, localizer, start=first - every * BEFORE, stop=at + every * (AFTER + 1), every=every):
-        behind = (step.index - at) // every - 1
+        since = (step.index - at) // every - 1
         pose = containment.reference(step)
-        if behind < 0 or pose is None:
+        if since < 0 or pose is None:
             continue
         right = estimate.poses.contains(localizer.grid.pose_to_grid(pose))
         silent += estimate.status == "localized" and not right
         if delay is None and estimate.status in ("lost", "blind"):
-            delay, recovery_s = behind, estimate.elapsed_s
+            delay, recovery_s = since, estimate.elapsed_s
         if recovered is None and estimate.status == "localized" and right:
-            recovered = behind
+            recovered = since
     return Outcome(delay, recovered, silent, recovery_s)
 
 
 def draw(source: Source, kind: str, count: int) -> list[list[Kidnapping]]:
-    """Return random kidnappings behind a processed scan, to one that is followed by the processed ones."""
+    """Return random kidnappings after a processed scan, to one that is followed by the processed ones."""
     readings, random, every = list(source.recording.readings()), np.random.default_rng(0), source.every
     poses = [source.truth.at(reading.stamp_ns) for reading in readings]
     last = len(readings) // every
     nearest, farthest = DISTANCES_M[kind]
     localizer = Localizer(source.grid)
-    found: list[list[Kidnapping]] = []
+    drawn: list[list[Kidnapping]] = []
 
     def fits(at: int, to: int) -> bool:
         """Return whether a kidnapping is of the kind that is wanted."""
@@ -111,10 +111,10 @@ def draw(source: Source, kind: str, count: int) -> list[list[Kidnapping]]:
             to = every * int(random.integers(0, last - 4 * AFTER))
             jumps.append(Kidnapping(at, to))
         if all(jump.at < len(readings) - every and jump.to != jump.at + 1 and fits(jump.at, jump.to) for jump in jumps):
-            found.append(jumps)
-        if len(found) == count:
+            drawn.append(jumps)
+        if len(drawn) == count:
             break
-    return found
+    return drawn
 
 
 def in_base(source: Source, scan: LaserScan, pose: Pose) -> Pose:

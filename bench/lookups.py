@@ -8,31 +8,31 @@ from ial.contractors.groups import group_rows
 from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 from ial.lidar.evidence.end_points import relative_bounds
-from ial.lidar.margins import NEAR
+from ial.lidar.search.flat_table import flat_table
 from ial.lidar.search.rectangle_indices import OFFSET, rectangle_indices
 from ial.lidar.search.scan_contractor import ScanContractor
-from ial.maps.grids.cell_index import BORDER
+from ial.lidar.search.table_coordinates import in_cells
+from ial.maps.grids.cell_table import BORDER
 
 
 @kernel
-def _walk(order, lower, upper, ends, directions, errors, q, map_error, resolution, table, firsts, indices):  # type: ignore[no-untyped-def]
+def _walk(order, lower, upper, evidence, occupied, firsts, indices):  # type: ignore[no-untyped-def]
     """Go the way of the scan contractor's kernel; count its tests in `firsts`, and record the indices where there is room for them."""
-    flat = table.reshape(-1)[BORDER:]
-    rows, columns = np.int32(table.shape[0] - 1), np.int32(table.shape[1] - 1 - 2 * BORDER)
-    stride = np.uint64(table.shape[1])
-    bounds = np.empty((len(ends), 4))
+    flat, stride, rows, columns = flat_table(occupied.bordered)
+    q, beams = evidence.outliers, len(evidence.ends)
+    bounds = np.empty((beams, 4))
     tests = 0
     for at in range(len(order)):
         row = order[at]
         if at == 0 or lower[row, 2] != lower[order[at - 1], 2] or upper[row, 2] != upper[order[at - 1], 2]:
-            relative_bounds(lower[row, 2], upper[row, 2], ends, directions, errors, map_error, resolution, bounds)
-        xl, yl = lower[row, 0] / resolution, lower[row, 1] / resolution
-        xu, yu = upper[row, 0] / resolution, upper[row, 1] / resolution
+            relative_bounds(lower[row, 2], upper[row, 2], evidence, occupied.resolution, bounds)
+        box = lower[row, 0], lower[row, 1], upper[row, 0], upper[row, 1]
+        xl, yl, xu, yu, near = in_cells(*box, occupied.resolution, occupied.origin)
         firsts[at] = tests
-        if not (min(xl, yl) >= -NEAR and max(xu, yu) <= NEAR):
+        if not near:
             continue
         failed = 0
-        for i in range(len(ends)):
+        for i in range(beams):
             left, below, right, above = rectangle_indices(
                 bounds, i, xl + OFFSET, yl + OFFSET, xu + (OFFSET + 1.0), yu + (OFFSET + 1.0), columns, rows
             )
@@ -43,7 +43,7 @@ def _walk(order, lower, upper, ends, directions, errors, q, map_error, resolutio
                 indices[tests, 2], indices[tests, 3] = high + near, low + near
             tests += 1
             failed += flat[high + far] - flat[low + far] - flat[high + near] + flat[low + near] == 0
-            if failed > q or i + 1 - failed >= len(ends) - q:
+            if failed > q or i + 1 - failed >= beams - q:
                 break
     firsts[len(order)] = tests
 
@@ -75,21 +75,13 @@ class Lookups:
 
     def __init__(self, contractor: ScanContractor, boxes: Boxes) -> None:
         self._order = group_rows(boxes.lower[:, 2], boxes.upper[:, 2])
-        self._flat = contractor.occupied.bordered.reshape(-1)[BORDER:]
+        cells = contractor.occupied.cells
+        self._flat = cells.bordered.reshape(-1)[BORDER:]
         self._q = contractor.beams.outliers
-        beams = contractor.beams
-        evidence = (
-            beams.ends,
-            beams.directions,
-            beams.errors,
-            beams.outliers,
-            beams.map_error_m,
-            contractor.occupied.resolution,
-        )
         self._firsts = np.empty(len(boxes) + 1, dtype=np.int64)
         self._indices = np.empty((0, 4), dtype=np.uint32)
         for _ in range(2):  # the first pass counts, the second records
-            _walk(self._order, boxes.lower, boxes.upper, *evidence, contractor.occupied.bordered, self._firsts, self._indices)
+            _walk(self._order, boxes.lower, boxes.upper, contractor.beams.evidence, cells, self._firsts, self._indices)
             self.tests = int(self._firsts[-1])
             self._indices = self._indices if len(self._indices) else np.empty((self.tests, 4), dtype=np.uint32)
 

@@ -72,18 +72,18 @@ class Tally:
         yield f"{largest:,}" if largest < 1 << 20 else f"2^{largest.bit_length() - 1}"
 
 
-def forward_tally(exact: Pairs, found: Pairs, reach: Any, given: Iterable[Pairs]) -> Tally:
+def forward_tally(exact: Pairs, ours: Pairs, reach: Any, given: Iterable[Pairs]) -> Tally:
     """Compare results with the tight ones; slack is counted where `reach` is true."""
     empty = (exact[0] > exact[1]) | (exact[0] == np.inf)  # crival's rootn(x, -2) of [-1, 0], where nothing is defined, is [inf, inf]
     exact = np.where(empty, np.inf, exact[0]), np.where(empty, -np.inf, exact[1])
-    steps = slack(exact, found)
-    lost = ~empty & ~((found[0] <= exact[0]) & (exact[1] <= found[1]))
-    counted = np.where(empty & ~(found[0] > found[1]), steps, np.maximum(steps, 0))[reach]
+    steps = slack(exact, ours)
+    lost = ~empty & ~((ours[0] <= exact[0]) & (exact[1] <= ours[1]))
+    counted = np.where(empty & ~(ours[0] > ours[1]), steps, np.maximum(steps, 0))[reach]
     values, counts = np.unique(counted, return_counts=True)
     example = ""
     if lost.any():
         at = int(lost.argmax())
-        shown = [(float(lower[at]), float(upper[at])) for lower, upper in (*given, found, exact)]
+        shown = [(float(lower[at]), float(upper[at])) for lower, upper in (*given, ours, exact)]
         example = f"operands {shown[:-2]}: found {shown[-2]}, crival has {shown[-1]}"
     return Tally(len(lost), int(lost.sum()), int(reach.sum()), Counter(dict(zip(values.tolist(), counts.tolist(), strict=True))), example)
 
@@ -91,13 +91,13 @@ def forward_tally(exact: Pairs, found: Pairs, reach: Any, given: Iterable[Pairs]
 def inputs(seed: int, count: int) -> list[Pairs]:
     """Return three operands: half of the rows of every kind, half of hard ones."""
     half = count // 2
-    found = []
+    pairs = []
     for k in range(3):
         parts = zip(intervals(count - half, seed + 10 * k), hard_intervals(half, seed + 10 * k + 5), strict=True)
         lower, upper = (np.concatenate(part) for part in parts)
         order = np.random.default_rng(seed + k).permutation(count)
-        found.append((lower[order], upper[order]))
-    return found
+        pairs.append((lower[order], upper[order]))
+    return pairs
 
 
 def forward(operation: Operation, operands: list[Pairs]) -> Iterator[Tally]:
@@ -124,10 +124,10 @@ def backward(operation: Operation, reverse: Reverse, seed: int, hard: list[Any])
     drawn = [np.where(rng.random(len(x)) < 0.5, x, y) for x, y in zip(drawn, hard, strict=False)]
     result, priors, solutions = problems(reverse.function, seed + 1, *drawn)
     exponent = [] if reverse.exponent is None else [(np.full(len(result[0]), float(reverse.exponent)),) * 2]
-    found = narrow(operation, result, *priors, *exponent)
+    ours = narrow(operation, result, *priors, *exponent)
     kept = [
         (start <= lower) & (lower <= x) & (x <= upper) & (upper <= stop)
-        for (lower, upper), (start, stop), x in zip(found, priors, solutions, strict=False)
+        for (lower, upper), (start, stop), x in zip(ours, priors, solutions, strict=False)
     ]
     lost = ~np.logical_and.reduce(kept)
     tally = Tally(len(lost), int(lost.sum()))
@@ -135,7 +135,7 @@ def backward(operation: Operation, reverse: Reverse, seed: int, hard: list[Any])
         at = int(lost.argmax())
         shown = [(float(lower[at]), float(upper[at])) for lower, upper in (result, *priors)]
         tally.example = f"result and operands {shown}: lost {[float(x[at]) for x in solutions]}"
-    for oracle, (lower, upper) in zip(reverse.oracles, found, strict=False):
+    for oracle, (lower, upper) in zip(reverse.oracles, ours, strict=False):
         exact = tight(oracle, result, *priors)
         within = np.logical_and.reduce([(pair[0] >= -LARGEST_ANGLE) & (pair[1] <= LARGEST_ANGLE) for pair in priors])
         reach = within if operation.name in REACH else np.ones(len(lost), dtype=bool)
@@ -149,21 +149,21 @@ def chunk(job: tuple[int, int]) -> dict[tuple[str, str], Tally]:
     """Return tallies of one part of the inputs, by direction and operation."""
     seed, count = job
     set_threads(1)
-    found: dict[tuple[str, str], Tally] = {}
+    tallies: dict[tuple[str, str], Tally] = {}
     operands = inputs(seed, count)
     for name, operation in OPERATIONS.items():
-        tally = found.setdefault(("forward", name), Tally())
+        tally = tallies.setdefault(("forward", name), Tally())
         for part in forward(operation, operands):
             tally += part
     for name, kernel in OTHERS.items():
         exact = tight(ORACLES[kernel].function, *operands[:2])
-        found["forward", name] = forward_tally(exact, rows(kernel, *operands[:2]), np.ones(count, dtype=bool), operands[:2])
+        tallies["forward", name] = forward_tally(exact, rows(kernel, *operands[:2]), np.ones(count, dtype=bool), operands[:2])
     hard = [hard_numbers(count, seed + 1000 * k) for k in range(3)]
     for name, reverses in REVERSE.items():
-        tally = found.setdefault(("backward", name), Tally())
+        tally = tallies.setdefault(("backward", name), Tally())
         for first, reverse in enumerate(reverses):
             tally += backward(OPERATIONS[name], reverse, seed + 7, [x[first :: len(reverses)] for x in hard])
-    return found
+    return tallies
 
 
 def with_pyinterval(count: int) -> dict[str, Tally]:
@@ -172,18 +172,18 @@ def with_pyinterval(count: int) -> dict[str, Tally]:
 
     binary: dict[str, Callable[..., Any]] = {"add": lambda a, b: a + b, "sub": lambda a, b: a - b, "mul": lambda a, b: a * b}
     unary = {name: getattr(imath, name) for name in ("sqrt", "exp", "log", "sin", "cos", "tan", "atan", "sinh", "cosh", "tanh")}
-    found: dict[str, Tally] = {}
+    tallies: dict[str, Tally] = {}
     for name, function in (binary | unary).items():
         operation = OPERATIONS[name]
         given = [hard_numbers(count, 77 + k) for k in range(operation.arity)]
         lower, upper = operation.bounds(*((x, x) for x in given))
-        tally = found.setdefault(name, Tally(count))
+        tally = tallies.setdefault(name, Tally(count))
         for i, point in enumerate(zip(*(x.tolist() for x in given), strict=True)):
             other = function(*map(interval, point))
             if len(other) and not (lower[i] <= other[0].sup and other[0].inf <= upper[i]):
                 tally.missed += 1
                 tally.example = tally.example or f"operands {point}: found {(float(lower[i]), float(upper[i]))}, pyinterval has {other}"
-    return found
+    return tallies
 
 
 def installed(package: str) -> str:
@@ -204,8 +204,8 @@ def main() -> int:
     jobs = [(1_000_003 * (k + 1), min(ROWS, chosen.inputs - start)) for k, start in enumerate(range(0, chosen.inputs, ROWS))]
     total: dict[tuple[str, str], Tally] = {}
     with ProcessPoolExecutor(available_threads(), multiprocessing.get_context("spawn")) as pool:
-        for found in pool.map(chunk, jobs):
-            for key, tally in found.items():
+        for part in pool.map(chunk, jobs):
+            for key, tally in part.items():
                 total[key] = total.setdefault(key, Tally())
                 total[key] += tally
     for direction in ("forward", "backward"):

@@ -33,12 +33,12 @@ class Reverse(NamedTuple):
 
 def _by_kernel() -> dict[Any, Reverse]:
     """Return the tables of the tests, by the backward kernel."""
-    found = {kernel: Reverse(function, (reverse,), scale) for kernel, function, reverse, scale in (*TIGHT, *NEARLY_TIGHT)}
-    found |= {kernel: Reverse(function, (reverse,)) for kernel, (function, reverse) in (PERIODIC | INVERSE).items()}
-    found |= {kernel: Reverse(function, (), 4.0) for kernel, function in INTEGER.items()}
-    found |= {kernel: Reverse(row[0], row[1:], operands=2) for kernel, row in BINARY.items()}
-    found |= {kernel: Reverse(function, (), operands=2) for kernel, function in POLAR.items()}
-    return found
+    reverses = {kernel: Reverse(function, (reverse,), scale) for kernel, function, reverse, scale in (*TIGHT, *NEARLY_TIGHT)}
+    reverses |= {kernel: Reverse(function, (reverse,)) for kernel, (function, reverse) in (PERIODIC | INVERSE).items()}
+    reverses |= {kernel: Reverse(function, (), 4.0) for kernel, function in INTEGER.items()}
+    reverses |= {kernel: Reverse(row[0], row[1:], operands=2) for kernel, row in BINARY.items()}
+    reverses |= {kernel: Reverse(function, (), operands=2) for kernel, function in POLAR.items()}
+    return reverses
 
 
 def _powers(name: str) -> list[Reverse]:

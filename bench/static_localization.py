@@ -55,7 +55,7 @@ One scan of 180 beams all around, up to 10 % of them wrong, no prior: every pose
 a single place costs varies by a factor of two, so small maps are many. Bounds: `range_error_m` 0.05 and no other, 18 outliers, default
 precision; simulated errors are uniform within these bounds. Nodes are means, times are medians over the scans. Each size runs in a process
 of its own, kernels compiled beforehand. *Memory* is the peak of that process (`getrusage`), in brackets what it was before the first
-search: Python, the map and its tables."""
+search: Python, the map and its tables. *Answers*: their hash; two commits that have the same one answer alike, bit for bit."""
 
 
 def peak_mb() -> float:
@@ -92,8 +92,8 @@ def nodes_of(localizer: Any, scan: Any) -> int:
     return sum(tried)
 
 
-def measure(scene: Any, config: Any, brute_force: bool) -> dict[str, Any]:
-    """Localize in one scene; return what was measured, as plain values."""
+def measure(scene: Any, config: Any, answers: Any, brute_force: bool) -> dict[str, Any]:
+    """Localize in one scene; return what was measured, as plain values, and the hash of all answers so far."""
     from ial.contractors.threads import set_threads
     from ial.lidar.localizer import Localizer
     from ial.particles.brute_force import BruteForce
@@ -108,6 +108,8 @@ def measure(scene: Any, config: Any, brute_force: bool) -> dict[str, Any]:
             row[f"brute_{name}_s"], match = timed(brute.locate, scene.scan, runs=3, enough_s=SLOW_S)
     row |= {"peak_mb": peak_mb(), "nodes": nodes_of(localizer, scene.scan), "limited": estimate.limited}
     row |= {"hypotheses": len(estimate.hypotheses), "contained": estimate.poses.contains(scene.grid.pose_to_grid(scene.truth))}
+    answers.add(estimate)
+    row["answers"] = str(answers)
     row["off_m"] = min(off(each.centre, scene.truth) for each in estimate.hypotheses)
     if brute is not None:
         row |= {"brute_poses": match.poses, "brute_off_m": off(match.best.pose, scene.truth)}
@@ -116,12 +118,14 @@ def measure(scene: Any, config: Any, brute_force: bool) -> dict[str, Any]:
 
 def search(case: Case, file: Path) -> list[dict[str, Any]]:
     """Localize in every scene of a file."""
+    from answer_hash import AnswerHash
     from plans import CONFIG, scenes
 
     for scene in scenes(6.0, 6.0, 0.05, 1, 1):
-        measure(scene, CONFIG, brute_force=True)  # loads the kernels
+        measure(scene, CONFIG, AnswerHash(), brute_force=True)  # loads the kernels
+    answers = AnswerHash()
     with file.open("rb") as source:
-        return [measure(pickle.load(source), CONFIG, case.area_m2 <= BRUTE_M2) for _ in range(case.plans * case.scans)]
+        return [measure(pickle.load(source), CONFIG, answers, case.area_m2 <= BRUTE_M2) for _ in range(case.plans * case.scans)]
 
 
 def off(pose: Any, truth: Any) -> float:
@@ -157,11 +161,12 @@ def line(case: Case, rows: list[dict[str, Any]]) -> Iterator[str]:
     yield ", ".join(f"{count} × {number}" for number, count in sorted(Counter(row["hypotheses"] for row in rows).items()))
     yield f"{sum(row['contained'] for row in rows)} of {len(rows)}"
     yield str(sum(bool(row["limited"]) for row in rows))
+    yield rows[-1]["answers"]
 
 
-def exponent(found: dict[Case, list[dict[str, Any]]], name: str) -> float:
+def exponent(measured: dict[Case, list[dict[str, Any]]], name: str) -> float:
     """Return the exponent of area with which the mean of a value grows best over `GROWTH` (least squares of the logarithms)."""
-    means = [statistics.fmean(row[name] for row in found[case]) for case in GROWTH]
+    means = [statistics.fmean(row[name] for row in measured[case]) for case in GROWTH]
     return statistics.linear_regression([math.log(case.area_m2) for case in GROWTH], [math.log(mean) for mean in means]).slope
 
 
@@ -190,23 +195,23 @@ def main() -> None:
         print(json.dumps(search(CASES[chosen.case], chosen.scenes)))
         return
     report = Report("Static localization", ABOUT)
-    found: dict[Case, list[dict[str, Any]]] = {}
+    measured: dict[Case, list[dict[str, Any]]] = {}
 
     def lines() -> Iterator[Iterator[str]]:
         for case in [CAMPUS] if chosen.campus else CASES[:-1]:
-            found[case] = in_own_processes(case)
-            yield line(case, found[case])
+            measured[case] = in_own_processes(case)
+            yield line(case, measured[case])
 
-    head = "map|scans|nodes|nodes per m²|ms, 1 thread|ms, all threads|memory, MB|scans × hypotheses|truth contained|limited"
+    head = "map|scans|nodes|nodes per m²|ms, 1 thread|ms, all threads|memory, MB|scans × hypotheses|truth contained|limited|answers"
     report.table(head.split("|"), lines())
     if chosen.campus:
         report.write(chosen.out)
         return
-    report.say(f"From {GROWTH[0]} on, nodes grow as area to the power of **{exponent(found, 'nodes'):.3f}** (the goal is at most 1.05),")
-    report.say(f"and the time on one thread as area to the power of {exponent(found, 'one_s'):.3f}.\n")
+    report.say(f"From {GROWTH[0]} on, nodes grow as area to the power of **{exponent(measured, 'nodes'):.3f}** (the goal is at most 1.05),")
+    report.say(f"and the time on one thread as area to the power of {exponent(measured, 'one_s'):.3f}.\n")
     report.say("Beside it, a brute-force search (`ial.particles.brute_force`) on the same scans. It returns one pose, and no guarantee.\n")
     head = "map|poses tried|brute force: ms, 1 thread|ms, all threads|off by, m|ours: ms, 1 thread|ms, all threads|nearest middle off by, m"
-    report.table(head.split("|"), (beside(case, rows) for case, rows in found.items() if "brute_poses" in rows[0]))
+    report.table(head.split("|"), (beside(case, rows) for case, rows in measured.items() if "brute_poses" in rows[0]))
     report.write(chosen.out)
 
 

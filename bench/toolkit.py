@@ -57,8 +57,8 @@ def ours(constraint: Any, start: Boxes, precision: float, known: float = 0.0) ->
 
 def theirs(task: str, known: float = 0.0, **arguments: Any) -> Result:
     """Pave with codac."""
-    found = codac(task, **arguments)
-    return Result(found["seconds"], found["nodes"], found["boxes"], found["volume"] - known)
+    answer = codac(task, **arguments)
+    return Result(answer["seconds"], answer["nodes"], answer["boxes"], answer["volume"] - known)
 
 
 def on_threads(constraint: Any, start: Boxes, precision: float, known: float = 0.0) -> tuple[Result, Result]:
@@ -210,7 +210,7 @@ def polar(report: Report) -> None:
     angle, length = rng.uniform(-math.pi, math.pi, POLAR_BOXES), rng.uniform(0.1, 10.0, POLAR_BOXES)
     points = np.stack([length * np.cos(angle), length * np.sin(angle), length, angle], axis=1)
     boxes = Boxes(points - rng.uniform(0.0, 1.0, points.shape), points + rng.uniform(0.0, 1.0, points.shape))
-    found = codac("polar", boxes=np.stack([boxes.lower, boxes.upper], axis=2).tolist())
+    answer = codac("polar", boxes=np.stack([boxes.lower, boxes.upper], axis=2).tolist())
     contract = Polar().contract
     contract(boxes)
     seconds = []
@@ -218,9 +218,9 @@ def polar(report: Report) -> None:
         set_threads(count)
         elapsed, narrowed = timed(lambda: contract(boxes))
         seconds.append(elapsed)
-    other = np.array([[[math.nan] * 2] * 4 if row is None else row for row in found["boxes"]])
+    other = np.array([[[math.nan] * 2] * 4 if row is None else row for row in answer["boxes"]])
     widths, wider = narrowed.width(), other[..., 1] - other[..., 0]
-    each = [1e9 * elapsed / POLAR_BOXES for elapsed in (found["seconds"], *seconds)]
+    each = [1e9 * elapsed / POLAR_BOXES for elapsed in (answer["seconds"], *seconds)]
     report.say("## Polar coordinates\n\nOne call for each box is all that codac's Python offers; the time holds the cost of the call.\n")
     head = ("boxes", "codac, ns a box", "ial, ns a box, 1 thread", "all", "ratio", "empty: codac", "ial", "summed widths, ial / codac")
     cells = [f"{POLAR_BOXES:,}", *(f"{time:,.0f}" for time in each), f"**{each[0] / each[2]:.0f}**"]

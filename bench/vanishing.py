@@ -118,9 +118,9 @@ def answers(run: Run) -> Iterator[Answer]:
         )
 
 
-def cells(name: str, flagged: Callable[[Answer], bool], found: list[Answer]) -> Iterator[str]:
+def cells(name: str, flagged: Callable[[Answer], bool], chosen: list[Answer]) -> Iterator[str]:
     """Yield the cells of a line: misses, far ones, false flags, and how many of the flags are right."""
-    misses, held = [at for at in found if at.missed], [at for at in found if not at.missed]
+    misses, held = [at for at in chosen if at.missed], [at for at in chosen if not at.missed]
     far = [at for at in misses if at.error_m > FAR_M]
     caught, false = sum(map(flagged, misses)), sum(map(flagged, held))
     yield name
@@ -145,9 +145,9 @@ def main() -> None:
     def lines() -> Iterator[Iterator[str]]:
         for run in [*(run for run in RUNS if not run.static), *FURTHER]:
             if chosen.only in run.name:
-                found = list(answers(run))
-                every.extend(found)
-                yield cells(run.name, lambda at: at.vanishing, found)
+                seen = list(answers(run))
+                every.extend(seen)
+                yield cells(run.name, lambda at: at.vanishing, seen)
 
     head = ["misses caught", "far ones caught", "false", "right, of the flags"]
     report.say("`vanishing`, by recording:\n")

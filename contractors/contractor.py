@@ -99,8 +99,8 @@ def complement(contractor: Dimensioned) -> ContractorLike:
     own = getattr(contractor, "complement", None)
     if own is None:
         raise TypeError(_unknown_complement(contractor))
-    found: ContractorLike = own()
-    return found
+    opposite: ContractorLike = own()
+    return opposite
 
 
 def _unknown_complement(contractor: object) -> str:

@@ -115,8 +115,8 @@ class KernelCache(_Cache):  # type: ignore[misc]
         name = self._name(signature)
         try:
             for folder in (kernel_folder(), *prebuilt_kernels()):
-                if (kept := folder.read(name)) is not None and (found := self._rebuild(kept, signature, target_context)) is not None:
-                    return found
+                if (kept := folder.read(name)) is not None and (rebuilt := self._rebuild(kept, signature, target_context)) is not None:
+                    return rebuilt
         except Exception as error:  # whatever is wrong with what was kept: the source is there
             _announce("compiling kernels again, for what was kept cannot be used: %s", error)
             return None

@@ -85,22 +85,22 @@ def _hash(sources: KernelSources, modules: frozenset[str]) -> str:
 
 def _texts(package: Path) -> dict[str, tuple[Path, bytes]]:
     """Return the file and the text of every module of ial, also of those in folders that are links, as in a checkout."""
-    found = {}
+    texts = {}
     for folder, _, names in os.walk(package, followlinks=True):
         parts = ("ial", *Path(folder).relative_to(package).parts)
         for file in (Path(folder, name) for name in names if name.endswith(".py")):
             module = parts if file.stem == "__init__" else (*parts, file.stem)
-            found[".".join(module)] = file, file.read_bytes()
-    return found
+            texts[".".join(module)] = file, file.read_bytes()
+    return texts
 
 
 def imported(text: bytes, modules: Set[str]) -> set[str]:
     """Return which of the modules a source imports, anywhere in it; ``from a import b`` imports module a.b if there is one, else a."""
-    found = set()
+    reached = set()
     for source, names in _IMPORT.findall(b"\n" + text):
         deeper = [b".".join((source, name)).decode() for name in re.findall(rb"\w+", names)] or [source.decode()]
-        found |= {name if name in modules else source.decode() for name in deeper}
-    return found & modules
+        reached |= {name if name in modules else source.decode() for name in deeper}
+    return reached & modules
 
 
 @functools.cache

@@ -133,22 +133,22 @@ class BagFile(AbstractContextManager["BagFile"]):
         definition = connection.msgdef
         try:
             if definition.format == MessageDefinitionFormat.MSG:
-                found = get_types_from_msg(definition.data, connection.msgtype)
+                definitions = get_types_from_msg(definition.data, connection.msgtype)
             elif definition.format == MessageDefinitionFormat.IDL:
                 parts = definition.data.split(_IDL_RULE)[1:] if definition.data.startswith(_IDL_RULE) else [definition.data]
-                found = {}
+                definitions = {}
                 for part in parts:
-                    found.update(get_types_from_idl(part.split("\n", 1)[1] if part.startswith("IDL: ") else part))
+                    definitions.update(get_types_from_idl(part.split("\n", 1)[1] if part.startswith("IDL: ") else part))
             elif connection.msgtype in self._default.fielddefs:
                 logger.info("%s: holds no definition of %s; taking the one of ROS 2 Jazzy", self.path, connection.msgtype)
-                found = dict(self._default.fielddefs)
+                definitions = dict(self._default.fielddefs)
             else:
                 raise RecordingError(
                     f"{self.path}: holds no definition of the message type {connection.msgtype} on {connection.topic}, and it is no "
                     "standard type; record the bag with definitions (MCAP does), or choose another topic"
                 )
             known = self._types.fielddefs
-            self._types.register({name: fields for name, fields in found.items() if name not in known})
+            self._types.register({name: fields for name, fields in definitions.items() if name not in known})
         except (TypesysError, AssertionError, IndexError, KeyError, ValueError) as error:
             raise RecordingError(
                 f"{self.path}: the definition of the message type {connection.msgtype} on {connection.topic} cannot be understood ({error})"

@@ -179,22 +179,22 @@ class CarmenLog(Reader):
 
     def _keyword(self) -> bytes:
         """Return the kind of line that holds the scans."""
-        found = [keyword for keyword in _PARSERS if self._survey().keywords[keyword.decode()]]
+        present = [keyword for keyword in _PARSERS if self._survey().keywords[keyword.decode()]]
         if len(self._scan_topics) > 1:
             raise RecordingError(f"{self.name}: a CARMEN log is read as that of one lidar; give --scan-topic once")
         for named in self._scan_topics:
-            if named.encode() not in found:
-                names = ", ".join(keyword.decode() for keyword in found) or "none"
+            if named.encode() not in present:
+                names = ", ".join(keyword.decode() for keyword in present) or "none"
                 raise RecordingError(f"{self.name}: no {named} lines; the kinds of scan lines in it are: {names}")
             return named.encode()
-        if len(found) > 1:
+        if len(present) > 1:
             raise RecordingError(
                 f"{self.name}: has scans in FLASER and in ROBOTLASER1 lines; choose with --scan-topic FLASER or --scan-topic ROBOTLASER1"
             )
-        if not found:
+        if not present:
             kinds = ", ".join(sorted(self._survey().keywords)[:10]) or "nothing"
             raise RecordingError(f"{self.name}: no FLASER or ROBOTLASER1 lines, so no scans; its lines are: {kinds}")
-        return found[0]
+        return present[0]
 
     def _topics(self) -> list[Topic]:
         return [Topic(keyword, "CARMEN", count) for keyword, count in sorted(self._survey().keywords.items())]

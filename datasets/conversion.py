@@ -69,7 +69,7 @@ def convert(recording: Recording, path: str | Path) -> int:
 
 
 def convert_to_lines(recording: Recording, target: Path | IO[str]) -> int:
-    """Write a recording as JSON lines (`ial.datasets.scan_stream`), each scan behind its odometry, and return the number of scans.
+    """Write a recording as JSON lines (`ial.datasets.scan_stream`), each scan after its odometry, and return the number of scans.
 
     Parameters
     ----------

@@ -43,7 +43,7 @@ def kidnap(
     recording
         The recording; read once, and held in memory.
     jumps
-        In the order in which they happen. Each must begin at a scan that is reached: behind the scan to which the one before led.
+        In the order in which they happen. Each must begin at a scan that is reached: after the scan to which the one before led.
     truth
         Its reference trajectory; what it says at the scans is put together anew.
 
@@ -95,7 +95,7 @@ def _order(name: str, indices: list[int], places: dict[int, int], jumps: Sequenc
 
 def _moved(last: Reading, readings: Sequence[Reading], place: int) -> Reading:
     """Return the scan at a place as the one that follows `last`, with the odometry of the recorded step that led to that scan."""
-    source = max(place, 1)  # the first scan has no step before it: the one behind it serves
+    source = max(place, 1)  # the first scan has no step before it: the next one serves
     before, now, reading = readings[source - 1], readings[source], readings[place]
     later = last.stamp_ns - before.stamp_ns
 

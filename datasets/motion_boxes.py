@@ -124,16 +124,16 @@ def along(stamps, numbers, parts, moved):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def interpolation_error(first, second, found):  # type: ignore[no-untyped-def]
-    """Return how far each coordinate and the heading may be from `found`, an odometry without errors, on the way from one to another.
+def interpolation_error(first, second, between):  # type: ignore[no-untyped-def]
+    """Return how far each coordinate and the heading may be from `between`, an odometry without errors, on the way from one to another.
 
     The robot stays as near to the box of the two positions as an arc does to its chord, and its heading in the shorter arc.
     """
     box = np.zeros((3, 2))
     aside, angle = 0.0, 0.0
     for neighbour in (first, second):
-        _shift(found, neighbour, box)
-        box[2, 0], box[2, 1] = _turned(found, neighbour)
+        _shift(between, neighbour, box)
+        box[2, 0], box[2, 1] = _turned(between, neighbour)
         aside = max(aside, max(max(-box[0, 0], box[0, 1]), max(-box[1, 0], box[1, 1])))
         angle = max(angle, max(-box[2, 0], box[2, 1]))
     _shift(first, second, box)

@@ -84,9 +84,9 @@ class OdometryBuffer:
             return None
         check_rounding()
         first, second = self._row(after - 1), self._row(after)
-        found = Odometry.of(interpolate(Odometry(*first).pose, Odometry(*second).pose, (stamp_ns - start) / (end - start)))
-        error_m, error_rad = interpolation_error(np.array(first), np.array(second), np.array(found.numbers))
-        return Odometry(found.x, found.y, found.z, found.w, error_m, error_rad)
+        between = Odometry.of(interpolate(Odometry(*first).pose, Odometry(*second).pose, (stamp_ns - start) / (end - start)))
+        error_m, error_rad = interpolation_error(np.array(first), np.array(second), np.array(between.numbers))
+        return Odometry(between.x, between.y, between.z, between.w, error_m, error_rad)
 
     def holds(self, stamp_ns: int) -> bool:
         """Return whether there is a message with exactly this stamp."""

@@ -63,7 +63,7 @@ class OdometryPath:
         """The last odometry."""
         return Odometry(*self.numbers[-1].tolist())
 
-    def behind(self, stamp_ns: int) -> "OdometryPath":
+    def after(self, stamp_ns: int) -> "OdometryPath":
         """Return the part that is later than a time."""
         later = self.stamps_ns > stamp_ns
         return self if later.all() else OdometryPath(self.stamps_ns[later], self.numbers[later])

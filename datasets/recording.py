@@ -122,7 +122,7 @@ class Step:
 
     @property
     def mark(self) -> Mark:
-        """What a later run needs in order to go on behind this scan."""
+        """What a later run needs in order to go on after this scan."""
         return Mark(self.index, self.stamp_ns, self.odometry, self.raised_ns, self.behind_ns)
 
 
@@ -150,9 +150,9 @@ def steps(
     start, stop, every
         Which raw scans to process, like a slice; `stop` is exclusive.
     after
-        Go on behind this scan, which is found by its number, stamp and odometry. Where the recording does not hold it (a live one, which
+        Go on after this scan, which is known by its number, stamp and odometry. Where the recording does not hold it (a live one, which
         went on in the meantime), scans and messages up to its stamp in the recording are passed over, scans are counted on from its number,
-        and the time without messages is one piece of the odometry. Whatever cannot be told to be before it counts as being behind it. The
+        and the time without messages is one piece of the odometry. Whatever cannot be told to be before it counts as being after it. The
         motion is unknown where messages have no stamps of their own.
     no_return
         Whether beams without return are usable, as hits are.
@@ -170,7 +170,7 @@ def steps(
     yielded, usable = 0, after is not None
     used = (BeamClass.HIT, BeamClass.NO_RETURN) if no_return else (BeamClass.HIT,)
     latest = None if after is None else after.latest_ns
-    for reading in recording.readings() if after is None else _behind(recording, after):
+    for reading in recording.readings() if after is None else _after(recording, after):
         if stop is not None and reading.index >= stop:
             break
         here = reading.stamp_ns, reading.odometry
@@ -192,8 +192,8 @@ def steps(
         _check_any(recording, yielded, usable, start)
 
 
-def _behind(recording: Recording, mark: Mark) -> Iterator[Reading]:
-    """Yield the readings behind a mark, numbered as if the run had never been interrupted, the first with every message since.
+def _after(recording: Recording, mark: Mark) -> Iterator[Reading]:
+    """Yield the readings after a mark, numbered as if the run had never been interrupted, the first with every message since.
 
     Where the recording does not hold the scan of the mark, a message too many makes a bound wider, and one too few makes it false.
     """
@@ -221,9 +221,9 @@ def _behind(recording: Recording, mark: Mark) -> Iterator[Reading]:
 
 
 def _since(mark: Mark, reading: Reading) -> OdometryPath:
-    """Return the messages of a reading that may have come behind a mark; one with infinite errors where they are not known."""
+    """Return the messages of a reading that may have come after a mark; one with infinite errors where they are not known."""
     if reading.clocked:
-        return reading.messages.behind(mark.recorded_ns)
+        return reading.messages.after(mark.recorded_ns)
     if len(reading.messages):
         return reading.messages
     return OdometryPath.of([(mark.stamp_ns, replace(mark.odometry, error_m=math.inf, error_rad=math.inf))])

@@ -103,12 +103,12 @@ class RosBag(Reader):
                 fault = f"has the type {', '.join(types)}, not {kind}" if types else "is not in the recording"
                 raise RecordingError(f"{self.name}: topic {named} {fault}; its topics are: {_listed(bag.topics)}")
             return named
-        found = [topic for topic in bag.of_type(kind) if topic != LOOKED_UP_TOPIC]
-        if len(found) > 1:
+        topics = [topic for topic in bag.of_type(kind) if topic != LOOKED_UP_TOPIC]
+        if len(topics) > 1:
             also = "; several lidars are used together if each is named" if kind == SCAN_TYPE else ""
-            names = ", ".join(found)
-            raise RecordingError(f"{self.name}: several topics of type {kind}: {names}; choose one with {option} {found[0]}{also}")
-        return found[0] if found else None
+            names = ", ".join(topics)
+            raise RecordingError(f"{self.name}: several topics of type {kind}: {names}; choose one with {option} {topics[0]}{also}")
+        return topics[0] if topics else None
 
     def _robot(self, bag: BagFile) -> _Robot:
         """Read the transforms and the odometry."""

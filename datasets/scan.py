@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.expressions.functions import add, mul
-from ial.contractors.expressions.operation import Bounds
+from ial.contractors.expressions.operation import IntervalArrays
 from ial.contractors.intervals.trigonometric import LARGEST_ANGLE
 from ial.datasets.odometry import quaternion_heading
 from ial.datasets.odometry_path import OdometryPath
@@ -190,7 +190,7 @@ def last_beam_ns(stamp_ns: int, time_increment: float, beams: int) -> int:
     return stamp_ns + round(1e9 * step * (beams - 1)) if math.isfinite(step) else stamp_ns
 
 
-def _read_as(value: float) -> Bounds:
+def _read_as(value: float) -> IntervalArrays:
     """Return bounds of the real numbers that round to a float32."""
     half_step = 0.5 * abs(float(np.spacing(np.float32(value))))
     return add.bounds((np.array(value), np.array(value)), (np.array(-half_step), np.array(half_step)))

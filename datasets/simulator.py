@@ -215,16 +215,16 @@ def _distances(grid: OccupancyGrid, laser: Pose, angles: FloatArray) -> FloatArr
     """
     mask = grid.mask(OCCUPIED)
     edges = cast_rays(mask, grid.resolution, laser.x, laser.y, angles)
-    found = np.full(len(angles), np.inf)
+    distances = np.full(len(angles), np.inf)
     for depth in _DEPTHS_M:
-        reach = np.where(np.isfinite(found) | ~np.isfinite(edges), 0.0, edges + depth)
+        reach = np.where(np.isfinite(distances) | ~np.isfinite(edges), 0.0, edges + depth)
         x, y = laser.x + reach * np.cos(angles), laser.y + reach * np.sin(angles)
-        inside = np.isinf(found) & np.isfinite(edges)
+        inside = np.isinf(distances) & np.isfinite(edges)
         for dx in (-_MARGIN_M, _MARGIN_M):
             for dy in (-_MARGIN_M, _MARGIN_M):
                 inside &= _occupied(mask, (x + dx) / grid.resolution, (y + dy) / grid.resolution)
-        found[inside] = reach[inside]
-    return found
+        distances[inside] = reach[inside]
+    return distances
 
 
 def _occupied(mask: npt.NDArray[np.bool_], u: FloatArray, v: FloatArray) -> npt.NDArray[np.bool_]:

@@ -1,4 +1,4 @@
-"""What a recording holds, found by reading it to its end."""
+"""What a recording holds, read to its end."""
 
 import math
 from collections import Counter

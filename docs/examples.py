@@ -25,13 +25,13 @@ def sections(page: Path) -> dict[str, list[Example]]:
     text = page.read_text(encoding="utf-8")
     headings = list(_HEADING.finditer(text))
     ends = [heading.start() for heading in headings[1:]] + [len(text)]
-    found: dict[str, list[Example]] = {}
+    pages: dict[str, list[Example]] = {}
     for heading, end in zip(headings, ends, strict=True):
         blocks = _BLOCK.finditer(text, heading.end(), end)
         examples = [Example(block["code"], block["printed"] or "", text.count("\n", 0, block.start("code"))) for block in blocks]
         if examples:
-            found[heading[0].removeprefix("## ")] = examples
-    return found
+            pages[heading[0].removeprefix("## ")] = examples
+    return pages
 
 
 def run(page: Path, section: list[Example]) -> list[str]:

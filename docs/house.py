@@ -51,14 +51,14 @@ def rooms(page: str) -> dict[str, Room]:
     ValueError
         If a room stands in the table twice.
     """
-    found: dict[str, Room] = {}
+    house: dict[str, Room] = {}
     for row in _ROW.finditer(page):
         path = ROOT / row["path"]
-        if path.stem in found:
+        if path.stem in house:
             raise ValueError(f"{PAGE.name}: the room {path.stem} stands in the table of floors twice; leave one")
         siblings = frozenset(re.findall(r"`(\w+)`", row["siblings"]))
-        found[path.stem] = Room(int(row["floor"]), path, row["holds"].startswith("to come"), siblings)
-    return found
+        house[path.stem] = Room(int(row["floor"]), path, row["holds"].startswith("to come"), siblings)
+    return house
 
 
 def imported(room: Room) -> Iterator[str]:
@@ -76,10 +76,10 @@ def arrows(house: dict[str, Room]) -> dict[str, set[str]]:
 
 def reached(house: dict[str, set[str]]) -> dict[str, set[str]]:
     """Return for each room all that its imports lead to, in one step or several."""
-    found: dict[str, set[str]] = {}
+    below: dict[str, set[str]] = {}
     for name in TopologicalSorter(house).static_order():
-        found[name] = house[name].union(*(found[other] for other in house[name]))
-    return found
+        below[name] = house[name].union(*(below[other] for other in house[name]))
+    return below
 
 
 def draw(picture: Path) -> None:

@@ -111,7 +111,7 @@ def rewrite(path: Path, content: bytes | memoryview, what: str) -> None:
     """
     part = unfinished(path)
     try:
-        part.unlink(missing_ok=True)  # were it a link, the file behind it would be written to
+        part.unlink(missing_ok=True)  # were it a link, its target would be written to
         with part.open("xb") as file:
             file.write(content)
         part.replace(path)

@@ -24,8 +24,10 @@ def is_there(module: str, name: str) -> bool:
 
 @pytest.mark.parametrize("bench", BENCHES, ids=lambda bench: bench.name)
 def test_a_bench_imports_what_there_is(bench: Path) -> None:
-    found = [node for node in ast.walk(ast.parse(bench.read_text(encoding="utf-8"))) if isinstance(node, ast.ImportFrom)]
-    names = [(str(node.module), alias.name) for node in found for alias in node.names if str(node.module).split(".")[0] in {"ial", "tests"}]
+    statements = [node for node in ast.walk(ast.parse(bench.read_text(encoding="utf-8"))) if isinstance(node, ast.ImportFrom)]
+    names = [
+        (str(node.module), alias.name) for node in statements for alias in node.names if str(node.module).split(".")[0] in {"ial", "tests"}
+    ]
     assert [f"{module}.{name}" for module, name in names if not is_there(module, name)] == []
 
 

@@ -15,6 +15,6 @@ def test_examples_in_docstrings_print_what_they_say(name: str) -> None:
 
 
 def test_there_are_examples() -> None:
-    found = doctest.DocTestFinder()
+    finder = doctest.DocTestFinder()
     modules = map(importlib.import_module, MODULES)
-    assert sum(bool(example.examples) for module in modules for example in found.find(module)) >= 5
+    assert sum(bool(example.examples) for module in modules for example in finder.find(module)) >= 5

@@ -38,13 +38,13 @@ def kept_files() -> list[Path]:
 
 def modules() -> dict[str, Path]:
     """The modules of ial by their dotted names."""
-    found = {}
+    files = {}
     for file in kept_files():
         parts = file.relative_to(ROOT).with_suffix("").parts
         if file.suffix == ".py" and parts[0] in {"ial", "contractors", "maps", "datasets"}:
             parts = parts if parts[0] == "ial" else ("ial", *parts)
-            found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = file
-    return found
+            files[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = file
+    return files
 
 
 MODULES = modules()
@@ -67,15 +67,15 @@ def imported(tree: ast.AST) -> Iterator[str]:
 
 def hidden_imports(text: str) -> list[str]:
     """Return the calls of a text that import a module by its name, unless the name says at once that it is none of ial's."""
-    found = []
+    calls = []
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] in {"import_module", "__import__", "resolve_name"}:
             name = node.args[0] if node.args else None
             first = name.values[0] if isinstance(name, ast.JoinedStr) else name
             known = first.value if isinstance(first, ast.Constant) else ""
             if not re.match(r"(?!ial\b)\w", str(known)):
-                found.append(ast.unparse(node))
-    return found
+                calls.append(ast.unparse(node))
+    return calls
 
 
 def room(module: str) -> str:
@@ -202,13 +202,13 @@ def test_other_numbers_are_no_margins(text: str) -> None:
 
 
 def test_margins_have_names_and_one_place() -> None:
-    found = set()
+    files = set()
     for file in MODULES.values():
         name = file.relative_to(ROOT).as_posix()
         if name.startswith(("contractors/", "maps/", "datasets/", "ial/lidar/", "ial/bouncing/")) and file.name != "margins.py":
-            found |= {name for node in ast.walk(ast.parse(file.read_text())) if looks_like_a_margin(node)}
-    assert found - NUMBERED.keys() == set(), "use a name of margins.py, and say what it covers"
-    assert NUMBERED.keys() - found == set()
+            files |= {name for node in ast.walk(ast.parse(file.read_text())) if looks_like_a_margin(node)}
+    assert files - NUMBERED.keys() == set(), "use a name of margins.py, and say what it covers"
+    assert NUMBERED.keys() - files == set()
 
 
 def test_what_every_bound_raises_is_said_once() -> None:

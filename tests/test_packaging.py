@@ -101,8 +101,8 @@ def test_the_unpacked_wheel_gives_ial_and_no_bare_name(wheel: Path, tmp_path: Pa
 import importlib.util, ial.contractors, ial.datasets, ial.maps
 print(ial.__file__, ial.contractors.__file__, *(name for name in {FOLDERS} if importlib.util.find_spec(name)))
 """
-    found = run_elsewhere(code, tmp_path, PYTHONPATH=str(tmp_path / "site")).split()
-    assert found == [str(tmp_path / "site" / "ial" / name) for name in ("__init__.py", "contractors/__init__.py")]
+    origins = run_elsewhere(code, tmp_path, PYTHONPATH=str(tmp_path / "site")).split()
+    assert origins == [str(tmp_path / "site" / "ial" / name) for name in ("__init__.py", "contractors/__init__.py")]
 
 
 def test_the_editable_install_gives_ial_and_no_bare_name(tmp_path: Path) -> None:

@@ -43,8 +43,8 @@ def test_only_code_tables_and_links_may_be_long() -> None:
 @pytest.mark.parametrize("page", WRITTEN, ids=page_name)
 def test_names_that_a_page_imports_are_there(page: Path) -> None:
     blocks = re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL)
-    found = [node for block in blocks for node in ast.walk(ast.parse(block)) if isinstance(node, ast.ImportFrom)]
-    names = [(str(node.module), alias.name) for node in found if str(node.module).split(".")[0] == "ial" for alias in node.names]
+    statements = [node for block in blocks for node in ast.walk(ast.parse(block)) if isinstance(node, ast.ImportFrom)]
+    names = [(str(node.module), alias.name) for node in statements if str(node.module).split(".")[0] == "ial" for alias in node.names]
     assert [f"{module}.{name}" for module, name in names if not hasattr(import_module(module), name)] == []
 
 

@@ -3,6 +3,7 @@
 import dataclasses
 import importlib
 from fractions import Fraction
+from pathlib import Path
 from typing import Any, get_args
 
 import numpy as np
@@ -10,12 +11,14 @@ import pytest
 
 from ial.bouncing import Automaton, FilterTable, Headings, build_filter
 from ial.contractors import Boxes, Clusters, Distance, Paving
-from ial.datasets import LaserScan, Motion, Trajectory
-from ial.lidar import Localizer, PoseSet
+from ial.datasets import LaserScan, Motion, Trajectory, sample_recording
+from ial.lidar import Localizer, LocalizerConfig, PoseSet
 from ial.maps import Environment, OccupancyGrid, Polygon
 from ial.pose import Pose
+from ial.results import Enclosure, EnclosuresFile, EventsFile, Picture, RecordingFile, ResultFolder, Summary, TrajectoryFile
+from ial.study import Containment, Domain, Obstacles
 
-ROOMS = ("contractors", "maps", "datasets", "lidar", "bouncing", "membership", "particles")
+ROOMS = ("contractors", "maps", "datasets", "lidar", "bouncing", "membership", "particles", "results", "study")
 
 
 def classes() -> list[type]:
@@ -76,3 +79,29 @@ def test_a_filter_and_a_localizer_say_in_one_line_what_they_are() -> None:
     assert localizer.startswith("<Localizer in <OccupancyGrid: 4 × 3 cells")
     assert "\n" not in localizer
     assert {Automaton, FilterTable} <= set(classes())
+
+
+def test_what_a_run_leaves_and_what_judges_it_say_what_they_are(tmp_path: Path) -> None:
+    grid, config = OccupancyGrid(CELLS, 0.5), LocalizerConfig()
+    with ResultFolder(tmp_path) as folder:
+        sinks = [EnclosuresFile(tmp_path / "e"), EventsFile(tmp_path / "v"), TrajectoryFile(tmp_path / "t")]
+        folder.attach(*sinks, Picture(tmp_path / "p", grid, "run"), RecordingFile(tmp_path / "r.mcap", grid))
+        assert [repr(each) for each in sinks] == [
+            f"<EnclosuresFile: {tmp_path / 'e'}>",
+            f"<EventsFile: {tmp_path / 'v'}>",
+            f"<TrajectoryFile: {tmp_path / 't'}>",
+        ]
+        assert repr(folder) == f"<ResultFolder: {tmp_path}, 5 files fed scan by scan>"
+    assert repr(Picture(tmp_path / "p", grid, "run")) == f"<Picture of 0 scans: {tmp_path / 'p'}>"
+    with RecordingFile(tmp_path / "r.mcap", grid) as recording:
+        assert repr(recording) == f"<RecordingFile: {tmp_path / 'r.mcap'}>"
+    sample = sample_recording()
+    assert repr(Summary(sample, grid, config, {})) == f"<Summary of 0 scans of {sample.name}: {{}}>"
+    assert repr(Enclosure(7, 3, "localized", (), Pose(), 180, 20, False, None, 0.1)) == (
+        "<Enclosure of scan 3: localized, 0 hypotheses around Pose(x=0.0, y=0.0, theta=0.0)>"
+    )
+    obstacles = Obstacles(grid)
+    assert repr(obstacles) == "<Obstacles: 1 occupied cells of 0.5 m>"
+    assert repr(Domain(grid, config, obstacles)) == "<Domain of 11 cells of 0.5 m>"
+    truth = Trajectory.of([(0, Pose())])
+    assert repr(Containment(Localizer(grid), truth)) == "<Containment of 0 scans: the reference is missed in 0>"

@@ -29,9 +29,9 @@ def test_an_example_prints_what_the_page_says(name: str, tmp_path: Path, monkeyp
 @pytest.mark.parametrize("name", EXAMPLES["PAGES"])
 def test_no_block_of_a_page_is_passed_over(name: str) -> None:
     text = (DOCS / name).read_text(encoding="utf-8")
-    found = [example for section in EXAMPLES["sections"](DOCS / name).values() for example in section]
-    assert len(found) == text.count("```python\n") > 0
-    assert sum(bool(example.printed) for example in found) == text.count("```text\n")
+    examples = [example for section in EXAMPLES["sections"](DOCS / name).values() for example in section]
+    assert len(examples) == text.count("```python\n") > 0
+    assert sum(bool(example.printed) for example in examples) == text.count("```text\n")
 
 
 def test_every_picture_of_a_page_is_made_by_its_examples() -> None:

@@ -109,18 +109,18 @@ class Affine:
             raise ValueError(f"the pose is ({x}, {y}, {heading_rad}); its numbers must be finite")
         (cl, cu), (sl, su) = cos(heading_rad, heading_rad), sin(heading_rad, heading_rad)
         lower, upper = np.array([[cl, -su], [sl, cl]]), np.array([[cu, -sl], [su, cu]])
-        found = cls.__new__(cls)
+        affine = cls.__new__(cls)
         # The inverse of a rotation is its transpose.
         transposed = np.ascontiguousarray(lower.T), np.ascontiguousarray(upper.T)
-        found._set((lower, upper), transposed, np.zeros(2), np.array([x, y], dtype=np.float64))
-        return found
+        affine._set((lower, upper), transposed, np.zeros(2), np.array([x, y], dtype=np.float64))
+        return affine
 
     @property
     def inverse(self) -> "Affine":
         """The inverse: y ↦ M⁻¹·(y − b), with an enclosure of M⁻¹."""
-        found = Affine.__new__(Affine)
-        found._set(self._inverse, self._matrix, self._offset, self._origin)
-        return found
+        inverted = Affine.__new__(Affine)
+        inverted._set(self._inverse, self._matrix, self._offset, self._origin)
+        return inverted
 
     def image(self, boxes: Boxes) -> Boxes:
         """Return boxes that contain the images of boxes: the tightest, but for rounding.

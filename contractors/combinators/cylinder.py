@@ -129,10 +129,10 @@ def checked_axes(axes: Sequence[int], dimension: int) -> list[int]:
     ValueError
         Unless they are different numbers from 0 to `dimension` − 1.
     """
-    found = [operator.index(axis) for axis in axes]
-    if len(set(found)) != len(found) or not all(0 <= axis < dimension for axis in found):
-        raise ValueError(f"the axes are {found}; in {dimension} dimensions give different numbers from 0 to {dimension - 1}")
-    return found
+    numbers = [operator.index(axis) for axis in axes]
+    if len(set(numbers)) != len(numbers) or not all(0 <= axis < dimension for axis in numbers):
+        raise ValueError(f"the axes are {numbers}; in {dimension} dimensions give different numbers from 0 to {dimension - 1}")
+    return numbers
 
 
 def columns(boxes: Boxes, axes: Sequence[int]) -> Boxes:

@@ -14,9 +14,9 @@ from ial.contractors.space import common_space
 @kernel
 def _shrunk(before_lower, before_upper, lower, upper, ratio):  # type: ignore[no-untyped-def]
     """Return the rows, not empty, of which some side became shorter by more than `ratio`, or bounded where it was not."""
-    found = occupied(lower, upper)
+    indices = occupied(lower, upper)
     count = 0
-    for i in found:
+    for i in indices:
         much = False
         for axis in range(lower.shape[1]):
             # Half a width does not overflow.
@@ -26,9 +26,9 @@ def _shrunk(before_lower, before_upper, lower, upper, ratio):  # type: ignore[no
                 (before_upper[i, axis] == float("inf")) & (upper[i, axis] < float("inf"))
             )
             much |= (before < float("inf")) & (after < (1.0 - ratio) * before) | bounded
-        found[count] = i
+        indices[count] = i
         count += much
-    return found[:count]
+    return indices[:count]
 
 
 class FixedPoint(CheckedContractor):
@@ -69,16 +69,16 @@ class FixedPoint(CheckedContractor):
 
     def _narrow(self, boxes: Boxes) -> Boxes:
         rest = self.contractor.contract(boxes)
-        found = Boxes(rest.lower.copy(), rest.upper.copy())
+        narrowed = Boxes(rest.lower.copy(), rest.upper.copy())
         rows = _shrunk(boxes.lower, boxes.upper, rest.lower, rest.upper, self.ratio)
         for _ in range(1, self.max_rounds):
             if not len(rows):
                 break
-            before = found[rows]
+            before = narrowed[rows]
             rest = self.contractor.contract(before)
-            found.lower[rows], found.upper[rows] = rest.lower, rest.upper
+            narrowed.lower[rows], narrowed.upper[rows] = rest.lower, rest.upper
             rows = rows[_shrunk(before.lower, before.upper, rest.lower, rest.upper, self.ratio)]
-        return found
+        return narrowed
 
 
 def check_rounds(ratio: float, max_rounds: int) -> None:

@@ -22,7 +22,7 @@ _BATCH = 1 << 14
 class _Projection(CheckedContractor):
     """What the two contractors of a projection share: for each row, a search through the values of the hidden variables.
 
-    A subclass says what the search knows of a row, as boxes `found` that it changes in place.
+    A subclass says what the search knows of a row, as boxes `hull` that it changes in place.
     """
 
     def __init__(
@@ -46,7 +46,7 @@ class _Projection(CheckedContractor):
         self.domain, self.precision, self.max_boxes = bounds, precision, max_boxes
 
     def _narrow(self, boxes: Boxes) -> Boxes:
-        found = self._start(boxes)
+        hull = self._start(boxes)
         rows = occupied(boxes.lower, boxes.upper)
         waiting = [(rows, self._with_hidden(boxes[rows], self.domain[:, 0], self.domain[:, 1]))]
         looked_at = np.zeros(len(boxes), dtype=np.int64)
@@ -56,15 +56,15 @@ class _Projection(CheckedContractor):
                 half = len(rows) // 2
                 waiting += [(rows[half:], parts[half:]), (rows[:half], parts[:half])]
                 continue
-            rows, parts = self._look(found, rows, parts)
+            rows, parts = self._look(hull, rows, parts)
             width = parts.upper[:, self.hidden] - parts.lower[:, self.hidden]
             axis = np.asarray(self.hidden)[width.argmax(axis=1)] if len(rows) else np.empty(0, dtype=np.int64)
             np.add.at(looked_at, rows, 1)
             wide = (width.max(axis=1, initial=0.0) > self.precision) & (looked_at[rows] < self.max_boxes)
-            self._finish(found, rows[~wide], parts[~wide])
+            self._finish(hull, rows[~wide], parts[~wide])
             if wide.any():
                 waiting.append((np.repeat(rows[wide], 2), parts[wide].bisect(axis[wide])))
-        return found
+        return hull
 
     def _with_hidden(self, boxes: Boxes, lower: FloatArray, upper: FloatArray) -> Boxes:
         """Return boxes of all variables: on the kept axes as given, on the hidden ones between some bounds."""
@@ -78,11 +78,11 @@ class _Projection(CheckedContractor):
         """Return what is known of each row before the search."""
 
     @abstractmethod
-    def _look(self, found: Boxes, rows: IntArray, parts: Boxes) -> tuple[IntArray, Boxes]:
+    def _look(self, hull: Boxes, rows: IntArray, parts: Boxes) -> tuple[IntArray, Boxes]:
         """Look at boxes of all variables that belong to some rows; return those that deserve to be divided further."""
 
     @abstractmethod
-    def _finish(self, found: Boxes, rows: IntArray, parts: Boxes) -> None:
+    def _finish(self, hull: Boxes, rows: IntArray, parts: Boxes) -> None:
         """Account for boxes that are not divided further."""
 
 
@@ -113,18 +113,18 @@ class Projection(_Projection):
     def _start(self, boxes: Boxes) -> Boxes:
         return emptied(len(boxes), self.dimension)  # the hull of what is left of the boxes that were finished
 
-    def _look(self, found: Boxes, rows: IntArray, parts: Boxes) -> tuple[IntArray, Boxes]:
+    def _look(self, hull: Boxes, rows: IntArray, parts: Boxes) -> tuple[IntArray, Boxes]:
         for contract in (False, True):
             if contract:
                 parts = self.outer.contract(parts)
             kept = columns(parts, self.onto)
-            useful = outside(rows, kept.lower, kept.upper, found.lower, found.upper)  # others would not change the hull
+            useful = outside(rows, kept.lower, kept.upper, hull.lower, hull.upper)  # others would not change the hull
             rows, parts = rows[useful], parts[useful]
         return rows, parts
 
-    def _finish(self, found: Boxes, rows: IntArray, parts: Boxes) -> None:
+    def _finish(self, hull: Boxes, rows: IntArray, parts: Boxes) -> None:
         kept = columns(parts, self.onto)
-        widen(rows, kept.lower, kept.upper, found.lower, found.upper)
+        widen(rows, kept.lower, kept.upper, hull.lower, hull.upper)
 
 
 class _InnerProjection(_Projection):
@@ -143,26 +143,26 @@ class _InnerProjection(_Projection):
     def _start(self, boxes: Boxes) -> Boxes:
         return Boxes(boxes.lower.copy(), boxes.upper.copy())  # what is left of the rows
 
-    def _look(self, found: Boxes, rows: IntArray, parts: Boxes) -> tuple[IntArray, Boxes]:
-        parts = self.outer.contract(self._again(found, rows, parts))
+    def _look(self, hull: Boxes, rows: IntArray, parts: Boxes) -> tuple[IntArray, Boxes]:
+        parts = self.outer.contract(self._again(hull, rows, parts))
         left = occupied(parts.lower, parts.upper)
         rows, parts = rows[left], parts[left]
         values = columns(parts, self.hidden).midpoint()
-        slices = self._again(found, rows, parts, values)
+        slices = self._again(hull, rows, parts, values)
         undecided = columns(self.inner.contract(slices), self.onto) & columns(slices, self.onto)
-        np.maximum.at(found.lower, rows, undecided.lower)
-        np.minimum.at(found.upper, rows, undecided.upper)
-        done = found.empty
-        found.lower[done], found.upper[done] = np.inf, -np.inf
+        np.maximum.at(hull.lower, rows, undecided.lower)
+        np.minimum.at(hull.upper, rows, undecided.upper)
+        done = hull.empty
+        hull.lower[done], hull.upper[done] = np.inf, -np.inf
         going = ~done[rows]
         return rows[going], parts[going]
 
-    def _again(self, found: Boxes, rows: IntArray, parts: Boxes, values: FloatArray | None = None) -> Boxes:
+    def _again(self, hull: Boxes, rows: IntArray, parts: Boxes, values: FloatArray | None = None) -> Boxes:
         """Return what is now left of the rows, together with hidden variables as in `parts` or of single values."""
         lower, upper = (values, values) if values is not None else (parts.lower[:, self.hidden], parts.upper[:, self.hidden])
-        return self._with_hidden(found[rows], lower, upper)
+        return self._with_hidden(hull[rows], lower, upper)
 
-    def _finish(self, found: Boxes, rows: IntArray, parts: Boxes) -> None:
+    def _finish(self, hull: Boxes, rows: IntArray, parts: Boxes) -> None:
         """Leave the rows as they are: boxes were looked at before."""
 
 

@@ -128,13 +128,13 @@ def relaxed_intersection(lower: FloatArray, upper: FloatArray, outliers: int, *,
         raise ValueError(f"bounds have shapes {lower.shape} and {upper.shape}; both must be (n, m, d)")
     outliers = _checked(outliers)
     rows, count, dimension = lower.shape
-    found = Boxes(np.full((rows, dimension), -np.inf), np.full((rows, dimension), np.inf))
+    enclosure = Boxes(np.full((rows, dimension), -np.inf), np.full((rows, dimension), np.inf))
     if outliers < count:
-        run(_intersect_relaxed, rows, lower, upper, count - outliers, found.lower, found.upper)
+        run(_intersect_relaxed, rows, lower, upper, count - outliers, enclosure.lower, enclosure.upper)
         if exact and _differs(count, dimension, outliers):
             require_affordable(count, dimension)
-            run(intersect_exactly, rows, lower, upper, count - outliers, found.lower, found.upper, minimum=8)
-    return found
+            run(intersect_exactly, rows, lower, upper, count - outliers, enclosure.lower, enclosure.upper, minimum=8)
+    return enclosure
 
 
 def _checked(outliers: int) -> int:

@@ -12,15 +12,15 @@ PAYS = 0.75  # rows that are decided are left out of a batch where at most this 
 def occupied(lower, upper):  # type: ignore[no-untyped-def]
     """Return the numbers of the rows that are not empty, int64 of shape (at most n,)."""
     rows, dimension = lower.shape
-    found = np.empty(rows, dtype=np.int64)
+    indices = np.empty(rows, dtype=np.int64)
     count = 0
     for i in range(rows):
         here = True
         for axis in range(dimension):
             here &= lower[i, axis] <= upper[i, axis]
-        found[count] = i
+        indices[count] = i
         count += here
-    return found[:count]
+    return indices[:count]
 
 
 @kernel
@@ -44,16 +44,16 @@ def widen(rows, lower, upper, hull_lower, hull_upper):  # type: ignore[no-untype
 @kernel
 def outside(rows, lower, upper, hull_lower, hull_upper):  # type: ignore[no-untyped-def]
     """Return which boxes, not empty, are not inside the hull of row ``rows[i]``: their numbers, int64 of shape (at most n,)."""
-    found = occupied(lower, upper)
+    indices = occupied(lower, upper)
     count = 0
-    for i in found:
+    for i in indices:
         row = rows[i]
         beyond = False
         for axis in range(lower.shape[1]):
             beyond |= (lower[i, axis] < hull_lower[row, axis]) | (upper[i, axis] > hull_upper[row, axis])
-        found[count] = i
+        indices[count] = i
         count += beyond
-    return found[:count]
+    return indices[:count]
 
 
 def emptied(rows: int, dimension: int) -> Boxes:
@@ -63,6 +63,6 @@ def emptied(rows: int, dimension: int) -> Boxes:
 
 def spread(rows: np.ndarray[tuple[int], np.dtype[np.int64]], boxes: Boxes, count: int) -> Boxes:
     """Return `count` boxes, of which row ``rows[i]`` is box i and every other one is empty."""
-    found = emptied(count, boxes.dimension)
-    scatter(rows, boxes.lower, boxes.upper, found.lower, found.upper)
-    return found
+    whole = emptied(count, boxes.dimension)
+    scatter(rows, boxes.lower, boxes.upper, whole.lower, whole.upper)
+    return whole

@@ -11,11 +11,11 @@ from ial.contractors.checked_contractor import CheckedContractor
 from ial.contractors.combinators.relaxation import Relaxed
 from ial.contractors.contractor import Contractor, require_dimension
 from ial.contractors.expressions.derivative import conditions, met
-from ial.contractors.expressions.operation import Bounds
+from ial.contractors.expressions.operation import IntervalArrays
 from ial.contractors.expressions.tape import Node, Tape
 from ial.contractors.space import Space
 
-Relation = tuple[Node, Bounds]
+Relation = tuple[Node, IntervalArrays]
 """An expression and the bounds it must lie in, two arrays of one value, or of one for each row of the constants."""
 
 
@@ -100,8 +100,8 @@ class ConstraintFamily(Constraint):
         """
         require_dimension(self, boxes)
         shape = (len(boxes), self.count, self.dimension)
-        found = self.tape.narrow(boxes, self._targets, members=self.count)
-        return found.lower.reshape(shape), found.upper.reshape(shape)
+        narrowed = self.tape.narrow(boxes, self._targets, members=self.count)
+        return narrowed.lower.reshape(shape), narrowed.upper.reshape(shape)
 
     def contract_rows(self, boxes: Boxes) -> Boxes:
         """Return each of m boxes narrowed by the constraint of its own row.

@@ -6,7 +6,7 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from ial.contractors.expressions.operation import Bounds
+from ial.contractors.expressions.operation import IntervalArrays
 from ial.contractors.expressions.tape import Node, ordered
 from ial.contractors.intervals.interval import Interval
 
@@ -61,7 +61,7 @@ def _sum(a: Any, b: Any) -> Any:
     return b if isinstance(a, Interval) and a.lower == a.upper == 0.0 else a + b
 
 
-def conditions(expressions: Sequence[Node], kind: Literal["defined", "continuous"]) -> tuple[list[Node], Bounds]:
+def conditions(expressions: Sequence[Node], kind: Literal["defined", "continuous"]) -> tuple[list[Node], IntervalArrays]:
     """Return when some expressions are defined, or defined and continuous: expressions, and the bounds that each must keep.
 
     Parameters
@@ -86,7 +86,7 @@ def conditions(expressions: Sequence[Node], kind: Literal["defined", "continuous
     return guards, (np.array([interval.lower for interval in bounds]), np.array([interval.upper for interval in bounds]))
 
 
-def met(ranges: Bounds, bounds: Bounds) -> npt.NDArray[np.bool_]:
+def met(ranges: IntervalArrays, bounds: IntervalArrays) -> npt.NDArray[np.bool_]:
     """Return on which rows all guards keep their bounds; a guard without a value does not."""
     (lower, upper), (least, most) = ranges, bounds
     return np.asarray(((lower <= upper) & (least <= lower) & (upper <= most)).all(axis=1))

@@ -11,7 +11,7 @@ import numpy as np
 from ial.contractors.boxes import Boxes
 from ial.contractors.expressions import functions
 from ial.contractors.expressions.constraint import Constraint, ConstraintFamily
-from ial.contractors.expressions.operation import Bounds, Operation
+from ial.contractors.expressions.operation import IntervalArrays, Operation
 from ial.contractors.expressions.tape import ordered
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.space import Space, common_space
@@ -40,7 +40,7 @@ class Expression:
         space: Space | None,
         *,
         axis: int | None = None,
-        bounds: Bounds | None = None,
+        bounds: IntervalArrays | None = None,
         operation: Operation | None = None,
         operands: tuple["Expression", ...] = (),
     ) -> None:

@@ -10,7 +10,7 @@ from ial.contractors.checked_contractor import CheckedContractor
 from ial.contractors.contractor import Contractor, ContractorLike, complement, require_dimension
 from ial.contractors.expressions.derivative import conditions, gradient, met
 from ial.contractors.expressions.expression import Expression
-from ial.contractors.expressions.operation import Bounds
+from ial.contractors.expressions.operation import IntervalArrays
 from ial.contractors.expressions.tape import Tape
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.rounding import check_rounding
@@ -48,7 +48,7 @@ class Function:
             raise ValueError("the formulas hold constants that differ from row to row, so they are several functions; use a FunctionFamily")
         self._gradients = [gradient(expression, self.dimension) for expression in self.expressions]
         self._jacobian: Tape | None = None
-        self._conditions: dict[str, tuple[Tape, Bounds]] = {}
+        self._conditions: dict[str, tuple[Tape, IntervalArrays]] = {}
 
     def __repr__(self) -> str:
         return f"Function({', '.join(map(repr, self.expressions))})"
@@ -70,10 +70,10 @@ class Function:
             If the boxes are of another dimension.
         """
         require_dimension(self, boxes)
-        found = Boxes(*self.tape.evaluate(boxes))
-        return found.where(~(found.empty | boxes.empty))
+        ranges = Boxes(*self.tape.evaluate(boxes))
+        return ranges.where(~(ranges.empty | boxes.empty))
 
-    def jacobian(self, boxes: Boxes) -> Bounds:
+    def jacobian(self, boxes: Boxes) -> IntervalArrays:
         """Return bounds of the partial derivatives on each box, lower and upper, each float64 of shape (n, m, d).
 
         Raises

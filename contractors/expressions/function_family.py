@@ -126,8 +126,8 @@ class InverseFamily(CheckedContractor):
             return np.empty(shape), np.empty(shape)
         values = Boxes(*self.function.tape.evaluate(boxes, self.count))
         values = self.contractor.contract(values.where(~values.empty))
-        found = self.function.tape.narrow(boxes, np.stack([values.lower, values.upper]), members=self.count)
-        return found.lower.reshape(shape), found.upper.reshape(shape)
+        narrowed = self.function.tape.narrow(boxes, np.stack([values.lower, values.upper]), members=self.count)
+        return narrowed.lower.reshape(shape), narrowed.upper.reshape(shape)
 
     def _narrow(self, boxes: Boxes) -> Boxes:
         return Relaxed(self, outliers=0).contract(boxes)

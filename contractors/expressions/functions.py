@@ -5,10 +5,18 @@ out where Python or NumPy already have the short one.
 """
 
 import math
-import numbers
 from typing import Any
 
 from ial.contractors.expressions.operation import Operation
+from ial.contractors.expressions.whole_exponent import (
+    pown_backward,
+    pown_forward,
+    require_exponent,
+    require_root,
+    rootn_backward,
+    rootn_forward,
+    whole_exponent,
+)
 from ial.contractors.intervals import (
     arithmetic,
     backward,
@@ -30,36 +38,11 @@ from ial.contractors.kernels import kernel
 _POSITIVE = Interval(math.ulp(0.0), math.inf)
 _NOT_NEGATIVE = Interval(0.0, math.inf)
 _UNIT = Interval(-1.0, 1.0)
-_MOST = 2.0**53  # larger whole numbers need not be doubles
 
 
 @kernel
 def _neg_backward(rl, ru, al, au):  # type: ignore[no-untyped-def]
     return intersect(-ru, -rl, al, au)
-
-
-@kernel
-def _pown(al, au, nl, nu):  # type: ignore[no-untyped-def]
-    """Return aⁿ for the whole number n = [nl, nu]."""
-    return powers.pown(al, au, int(nl))
-
-
-@kernel
-def _pown_backward(rl, ru, al, au, nl, nu):  # type: ignore[no-untyped-def]
-    al, au = reverse_powers.pown_reverse(rl, ru, al, au, int(nl))
-    return al, au, nl, nu
-
-
-@kernel
-def _rootn(al, au, nl, nu):  # type: ignore[no-untyped-def]
-    """Return the n-th root of a for the whole number n = [nl, nu]."""
-    return powers.rootn(al, au, int(nl))
-
-
-@kernel
-def _rootn_backward(rl, ru, al, au, nl, nu):  # type: ignore[no-untyped-def]
-    al, au = reverse_powers.rootn_reverse(rl, ru, al, au, int(nl))
-    return al, au, nl, nu
 
 
 def _not_zero(x: Any) -> list[tuple[Any, Interval]]:
@@ -79,26 +62,6 @@ def _step(name: str, forward: Any, backward: Any, doc: str) -> Operation:
     """Return an operation that jumps between whole numbers: it is continuous on a box where it has one value, less itself [0, 0]."""
     step = Operation(name, forward, backward, continuous=lambda a: [(step(a) - step(a), Interval(0.0))], doc=doc)
     return step
-
-
-def _exponent(n: Any) -> int:
-    """Return the exponent of `pown` and `rootn`, a number or a constant expression, if it is whole and a double holds it exactly."""
-    given = getattr(n, "value", n)
-    number: Any = given.lower if isinstance(given, Interval) and given.lower == given.upper else given
-    if not issubclass(type(number), numbers.Real):
-        raise TypeError(f"the exponent is {n}; pown and rootn need one whole number, pow takes others")
-    if not (abs(number) <= _MOST and float(number).is_integer() and float(number) == number):
-        raise ValueError(f"the exponent is {n}; pown and rootn need a whole number of at most 2^53 in size, pow takes others")
-    return int(float(number))
-
-
-def _require_exponent(a: Any, n: Any) -> None:
-    _exponent(n)
-
-
-def _require_root(a: Any, n: Any) -> None:
-    if _exponent(n) == 0:
-        raise ValueError("the exponent is 0; rootn needs a whole number other than 0")
 
 
 add = Operation("add", arithmetic.add, backward.add_backward, derivative=lambda a, b, r: (1.0, 1.0), doc="Return a + b.")
@@ -167,20 +130,20 @@ round_ties_to_away = _step(
 
 pown = Operation(
     "pown",
-    _pown,
-    _pown_backward,
-    derivative=lambda a, n, r: (_exponent(n) * a ** (_exponent(n) - 1) if _exponent(n) else 0.0, 0.0),
-    defined=lambda a, n: _not_zero(a) if _exponent(n) < 0 else [],
-    check=_require_exponent,
+    pown_forward,
+    pown_backward,
+    derivative=lambda a, n, r: (whole_exponent(n) * a ** (whole_exponent(n) - 1) if whole_exponent(n) else 0.0, 0.0),
+    defined=lambda a, n: _not_zero(a) if whole_exponent(n) < 0 else [],
+    check=require_exponent,
     doc="Return aⁿ for a constant whole number n; for n < 0 where a ≠ 0.",
 )
 rootn = Operation(
     "rootn",
-    _rootn,
-    _rootn_backward,
-    derivative=lambda a, n, r: (r / (_exponent(n) * a), 0.0),
-    defined=lambda a, n: (_not_zero(a) if _exponent(n) < 0 else []) + ([(a, _NOT_NEGATIVE)] if _exponent(n) % 2 == 0 else []),
-    check=_require_root,
+    rootn_forward,
+    rootn_backward,
+    derivative=lambda a, n, r: (r / (whole_exponent(n) * a), 0.0),
+    defined=lambda a, n: (_not_zero(a) if whole_exponent(n) < 0 else []) + ([(a, _NOT_NEGATIVE)] if whole_exponent(n) % 2 == 0 else []),
+    check=require_root,
     doc="Return the n-th root of a for a constant whole number n ≠ 0; for even n where a ≥ 0.",
 )
 pow: Operation = Operation(

@@ -104,7 +104,7 @@ def _linear(start, stop, rows, middle, fl, fu, jl, ju, yl, yu, lower, upper):  #
         for k in range(len(yl)):
             if not fl[i, k] <= fu[i, k]:
                 continue  # f has no value at m
-            # What the sum of all terms must be, and then the same without the terms behind the axis in hand.
+            # What the sum of all terms must be, and then the same without the terms after the axis in hand.
             restl, restu = sub(yl[k], yu[k], fl[i, k], fu[i, k])
             before_lower[0] = before_upper[0] = 0.0
             known = True

@@ -25,7 +25,8 @@ _POINTER = types.CPointer(types.float64)
 _LOOP = (types.int64, _POINTER, _POINTER, _POINTER, _POINTER)
 
 FloatArray = npt.NDArray[np.float64]
-Bounds = tuple[FloatArray, FloatArray]
+IntervalArrays = tuple[FloatArray, FloatArray]
+"""Many intervals: their lower and their upper bounds."""
 
 
 def _call_python(address: int, count: int, *lanes: int) -> None:
@@ -213,7 +214,7 @@ class Operation:
         except NumbaError as error:
             raise TypeError(f"the function {direction} of the operation {self.name!r} cannot be compiled by Numba: {error}") from error
 
-    def bounds(self, *operands: Bounds) -> Bounds:
+    def bounds(self, *operands: IntervalArrays) -> IntervalArrays:
         """Return the results on arrays of intervals, (lower, upper), each float64 of one shape that operands broadcast to."""
         check_rounding()
         sides = [np.asarray(side, dtype=np.float64) for operand in operands for side in operand]

@@ -1,8 +1,4 @@
-"""`Tape`: expressions as a list of instructions, and the one compiled machine that runs any tape, forward and backward, over a batch.
-
-The machine knows operations only by the addresses of their row loops, so that no expression and no user's operation ever needs it to be
-compiled again. It takes `LANES` rows at a time through the whole tape, which keeps all values in the fastest cache.
-"""
+"""`Tape`: expressions as a list of instructions, which `ial.contractors.expressions.machine` runs over a batch."""
 
 from collections.abc import Sequence
 from typing import Any, Protocol
@@ -11,9 +7,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes, FloatArray
-from ial.contractors.expressions.operation import LANES, Bounds, Operation, call
+from ial.contractors.expressions.machine import evaluate_rows, narrow_rows
+from ial.contractors.expressions.operation import LANES, IntervalArrays, Operation
 from ial.contractors.intervals.interval import Interval
-from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 
 _SHARED_STEPS = 1 << 15  # so many instructions on one row each take as long as waking a thread
@@ -28,7 +24,7 @@ class Node(Protocol):
         ...
 
     @property
-    def bounds(self) -> Bounds | None:
+    def bounds(self) -> IntervalArrays | None:
         """The bounds of a constant: two arrays of one value, or of one for each row."""
         ...
 
@@ -45,18 +41,18 @@ class Node(Protocol):
 
 def ordered(outputs: Sequence[Node]) -> list[Node]:
     """Return all nodes that some outputs are made of, each once, operands before what uses them."""
-    found: dict[int, Node] = {}
+    nodes: dict[int, Node] = {}
     stack = [(node, False) for node in reversed(outputs)]
     while stack:
         node, visited = stack.pop()
-        if id(node) in found:
+        if id(node) in nodes:
             continue
         if visited or not node.operands:
-            found[id(node)] = node
+            nodes[id(node)] = node
         else:
             stack.append((node, True))
             stack.extend((operand, False) for operand in reversed(node.operands))
-    return list(found.values())
+    return list(nodes.values())
 
 
 class Tape:
@@ -78,7 +74,7 @@ class Tape:
         nodes = [node for node in outputs if not isinstance(node, Interval)]
         slots: dict[int, int] = {}  # from a node's identity to where its value stands
         known: dict[Any, int] = {}  # the same from what it computes
-        constants: list[Bounds] = []
+        constants: list[IntervalArrays] = []
         instructions: list[tuple[Operation, tuple[int, ...]]] = []
         order = ordered(nodes)
 
@@ -139,7 +135,7 @@ class Tape:
         """The smallest number of rows worth a thread of its own."""
         return max(LANES, _SHARED_STEPS // (1 + len(self._instructions)))
 
-    def evaluate(self, boxes: Boxes, members: int = 1) -> Bounds:
+    def evaluate(self, boxes: Boxes, members: int = 1) -> IntervalArrays:
         """Return the natural extension: bounds of every output on every box, each float64 of shape (n·members, outputs).
 
         Parameters
@@ -152,7 +148,7 @@ class Tape:
         rows = len(boxes) * members
         lower, upper = np.empty((rows, len(self.outputs))), np.empty((rows, len(self.outputs)))
         given = (boxes.lower, boxes.upper, members, self.axes, self.constants, self.program, self.outputs)
-        run(_evaluate, rows, *given, lower, upper, minimum=self._share)
+        run(evaluate_rows, rows, *given, lower, upper, minimum=self._share)
         return lower, upper
 
     def narrow(self, boxes: Boxes, targets: FloatArray, members: int = 1, rounds: int = 1) -> Boxes:
@@ -172,141 +168,5 @@ class Tape:
         rows = len(boxes) * members
         lower, upper = np.empty((rows, self.dimension)), np.empty((rows, self.dimension))
         given = (boxes.lower, boxes.upper, members, self.axes, self.constants, self.program, self.outputs, targets, rounds)
-        run(_narrow, rows, *given, lower, upper, minimum=self._share)
+        run(narrow_rows, rows, *given, lower, upper, minimum=self._share)
         return Boxes(lower, upper)
-
-
-@kernel
-def _load_variables(lanes, first, count, lower, upper, members, axes):  # type: ignore[no-untyped-def]
-    for v in range(len(axes)):
-        # Counting rows, since a division for each of them would cost more than the rest.
-        low, high = lanes[v]
-        box, member = divmod(first, members)
-        for i in range(count):
-            low[i] = lower[box, axes[v]]
-            high[i] = upper[box, axes[v]]
-            member += 1
-            if member == members:
-                member = 0
-                box += 1
-
-
-@kernel
-def _load_constants(lanes, first, count, slot, constants):  # type: ignore[no-untyped-def]
-    rows = constants.shape[1]
-    for k in range(constants.shape[2]):
-        for side in range(2):
-            if rows == 1:
-                lanes[slot + k, side, :count] = constants[side, 0, k]
-            else:
-                row = first % rows
-                for i in range(count):
-                    lanes[slot + k, side, i] = constants[side, row, k]
-                    row = row + 1 if row + 1 < rows else 0
-
-
-@kernel
-def _meet_targets(lanes, first, count, outputs, targets):  # type: ignore[no-untyped-def]
-    rows = targets.shape[1]
-    for k in range(len(outputs)):
-        low, high = lanes[outputs[k]]
-        row = first % rows
-        for i in range(count):
-            low[i] = max(low[i], targets[0, row, k])
-            high[i] = min(high[i], targets[1, row, k])
-            row = row + 1 if row + 1 < rows else 0
-
-
-@kernel
-def _mark_empty(lanes, count, slots, empty):  # type: ignore[no-untyped-def]
-    for k in range(len(slots)):
-        low, high = lanes[slots[k]]
-        for i in range(count):
-            empty[i] = 1.0 if low[i] > high[i] else empty[i]
-
-
-@kernel
-def _all_marked(empty, count):  # type: ignore[no-untyped-def]
-    for i in range(count):  # noqa: SIM110 - Numba compiles a loop to less than a generator
-        if empty[i] == 0.0:
-            return False
-    return True
-
-
-@kernel
-def _store(lanes, first, count, lower, upper, members, places, empty, out_lower, out_upper):  # type: ignore[no-untyped-def]
-    """Write the boxes: sides of variables from the lanes, the others as they were, all sides empty where one is."""
-    for axis in range(lower.shape[1]):
-        place = places[axis]
-        box, member = divmod(first, members)
-        for i in range(count):
-            low = lanes[place, 0, i] if place >= 0 else lower[box, axis]
-            high = lanes[place, 1, i] if place >= 0 else upper[box, axis]
-            out_lower[first + i, axis] = np.inf if empty[i] > 0.0 else low
-            out_upper[first + i, axis] = -np.inf if empty[i] > 0.0 else high
-            member += 1
-            if member == members:
-                member = 0
-                box += 1
-
-
-@kernel
-def _forward(lanes, count, program):  # type: ignore[no-untyped-def]
-    at = lanes.ctypes.data
-    for k in range(len(program)):
-        step = program[k]
-        call(step[0], count, *_addresses(at, step))
-
-
-@kernel
-def _backward(lanes, count, program):  # type: ignore[no-untyped-def]
-    at = lanes.ctypes.data
-    for k in range(len(program) - 1, -1, -1):
-        step = program[k]
-        if step[1] != 0:
-            call(step[1], count, *_addresses(at, step))
-
-
-@kernel
-def _addresses(at, step):  # type: ignore[no-untyped-def]
-    size = 16 * LANES
-    return at + size * step[2], at + size * step[3], at + size * step[4], at + size * step[5]
-
-
-@kernel
-def _evaluate(start, stop, lower, upper, members, axes, constants, program, outputs, out_lower, out_upper):  # type: ignore[no-untyped-def]
-    lanes = np.empty((len(axes) + constants.shape[2] + len(program), 2, LANES))
-    for first in range(start, stop, LANES):
-        count = min(LANES, stop - first)
-        _load_variables(lanes, first, count, lower, upper, members, axes)
-        _load_constants(lanes, first, count, len(axes), constants)
-        _forward(lanes, count, program)
-        for k in range(len(outputs)):
-            for i in range(count):
-                out_lower[first + i, k] = lanes[outputs[k], 0, i]
-                out_upper[first + i, k] = lanes[outputs[k], 1, i]
-
-
-@kernel
-def _narrow(start, stop, lower, upper, members, axes, constants, program, outputs, targets, rounds, out_lower, out_upper):  # type: ignore[no-untyped-def]
-    lanes = np.empty((len(axes) + constants.shape[2] + len(program), 2, LANES))
-    empty = np.empty(LANES)  # 1.0 marks an empty row; a double, since loops over values of one size are vectorized
-    variables = np.arange(len(axes))
-    places = np.full(lower.shape[1], -1)
-    for v in range(len(axes)):
-        places[axes[v]] = v
-    for first in range(start, stop, LANES):
-        count = min(LANES, stop - first)
-        _load_variables(lanes, first, count, lower, upper, members, axes)
-        empty[:] = 0.0
-        for _ in range(rounds):
-            # Going backward narrows constants as well, so they are written anew in every round.
-            _load_constants(lanes, first, count, len(axes), constants)
-            _forward(lanes, count, program)
-            _meet_targets(lanes, first, count, outputs, targets)
-            _mark_empty(lanes, count, outputs, empty)
-            if _all_marked(empty, count):  # often so: neighbours in space are neighbours in a batch
-                break
-            _backward(lanes, count, program)
-        _mark_empty(lanes, count, variables, empty)
-        _store(lanes, first, count, lower, upper, members, places, empty, out_lower, out_upper)

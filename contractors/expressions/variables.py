@@ -39,13 +39,13 @@ def variables(names: str) -> Any:
     words = [_NAME.fullmatch(word) for word in names.split()] if isinstance(names, str) else []
     if not words or not all(word and int(word[2] or 1) for word in words):
         raise ValueError(f"{names!r} declares no variables; give names between blanks, such as 'x y p[3]'")
-    found = [(word[1], word[2]) for word in words if word]
-    if len({name for name, _ in found}) < len(found):
+    named = [(word[1], word[2]) for word in words if word]
+    if len({name for name, _ in named}) < len(named):
         raise ValueError(f"{names!r} declares a name twice")
-    space = Space(tuple(part for name, size in found for part in ([f"{name}[{i}]" for i in range(int(size))] if size else [name])))
+    space = Space(tuple(part for name, size in named for part in ([f"{name}[{i}]" for i in range(int(size))] if size else [name])))
     axes = iter(range(space.dimension))
     declared: list[Any] = []
-    for _, size in found:
+    for _, size in named:
         if size:
             vector = np.empty(int(size), dtype=object)
             vector[:] = [Expression(space, axis=next(axes)) for _ in range(int(size))]

@@ -1,4 +1,4 @@
-"""`BoxTree`: which of many boxes meet a box, found without looking at each of them."""
+"""`BoxTree`: which of many boxes meet a box, without looking at each of them."""
 
 import numpy as np
 import numpy.typing as npt
@@ -12,7 +12,7 @@ _DIGITS = 52  # of a double
 
 @kernel
 def following(node):  # type: ignore[no-untyped-def]
-    """Return the node behind a node and all that is below it; the root, 1, behind the last. The first child of a node is 2·node."""
+    """Return the node that follows a node and all that is below it; the root, 1, after the last. The first child of a node is 2·node."""
     node += 1
     while node & 1 == 0:
         node >>= 1

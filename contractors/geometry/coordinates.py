@@ -61,14 +61,14 @@ class FromPolar(CheckedContractor):
         return FromPolar(complement(self.contractor), self.start_rad)
 
     def _narrow(self, boxes: Boxes) -> Boxes:
-        found = emptied(len(boxes), 2)
+        hull = emptied(len(boxes), 2)
         for start, stop in self._halves:
             turn = Boxes(np.tile([0.0, start], (len(boxes), 1)), np.tile([np.inf, stop], (len(boxes), 1)))
             rows, relation = _narrowed(_beside(boxes, turn))
             relation = _beside(columns(relation, _POINT), self.contractor.contract(columns(relation, _COORDINATES)))
             point = columns(_POLAR.contract(relation), _POINT)
-            widen(rows, point.lower, point.upper, found.lower, found.upper)
-        return found
+            widen(rows, point.lower, point.upper, hull.lower, hull.upper)
+        return hull
 
 
 class ToPolar(CheckedContractor):
@@ -102,13 +102,13 @@ class ToPolar(CheckedContractor):
         return ToPolar(complement(self.contractor))
 
     def _narrow(self, boxes: Boxes) -> Boxes:
-        found = emptied(len(boxes), 2)
-        self._widen(found, boxes, opposite=False)
+        hull = emptied(len(boxes), 2)
+        self._widen(hull, boxes, opposite=False)
         if (boxes.lower[:, 0] < 0.0).any():
-            self._widen(found, boxes, opposite=True)
-        return found
+            self._widen(hull, boxes, opposite=True)
+        return hull
 
-    def _widen(self, found: Boxes, boxes: Boxes, opposite: bool) -> None:
+    def _widen(self, hull: Boxes, boxes: Boxes, opposite: bool) -> None:
         """Add what is left of r >= 0; or, with r and the point turned to the opposite side, of r <= 0."""
         plane = Boxes(np.full(boxes.lower.shape, -np.inf), np.full(boxes.upper.shape, np.inf))
         rows, relation = _narrowed(_beside(plane, _with_opposite_radius(boxes) if opposite else boxes))
@@ -116,7 +116,7 @@ class ToPolar(CheckedContractor):
         point = _opposite(self.contractor.contract(_opposite(point))) if opposite else self.contractor.contract(point)
         pair = columns(_POLAR.contract(_beside(point, columns(relation, _COORDINATES))), _COORDINATES)
         pair = _with_opposite_radius(pair) if opposite else pair
-        widen(rows, pair.lower, pair.upper, found.lower, found.upper)
+        widen(rows, pair.lower, pair.upper, hull.lower, hull.upper)
 
 
 def _require_two_variables(contractor: ContractorLike) -> None:

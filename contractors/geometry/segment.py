@@ -26,14 +26,14 @@ def _contract_segment(start, end, low, high, part_low, part_high):  # type: igno
     for axis in range(len(low)):
         p, q = start[axis], end[axis]
         tl, tu = mul_reverse(*sub(q, q, p, p), *sub(low[axis], high[axis], p, p), tl, tu)
-    found = tl <= tu
+    possible = tl <= tu
     for axis in range(len(low)):
         p, q = start[axis], end[axis]
         xl, xu = intersect(low[axis], high[axis], min(p, q), max(p, q))
         xl, xu = intersect(xl, xu, *add(p, p, *mul(tl, tu, *sub(q, q, p, p))))
         part_low[axis], part_high[axis] = xl, xu
-        found = found and xl <= xu
-    return found
+        possible = possible and xl <= xu
+    return possible
 
 
 @kernel

@@ -68,39 +68,39 @@ def _refused(text: str, reason: str) -> ValueError:
 
 def _number(word: str, text: str) -> _Number:
     for kind, pattern in _NUMBERS.items():
-        found = pattern.fullmatch(word)
-        if not found:
+        match = pattern.fullmatch(word)
+        if not match:
             continue
         if kind == "infinity":
-            return -math.inf if found["sign"] == "-" else math.inf
+            return -math.inf if match["sign"] == "-" else math.inf
         if kind == "rational":
-            if int(found["denominator"]) == 0:
+            if int(match["denominator"]) == 0:
                 raise _refused(text, "it divides by zero")
-            return Fraction(int(found["numerator"]), int(found["denominator"]))
-        value, unit = _value_and_unit(found, text, *((16, 2, 4) if kind == "hexadecimal" else (10, 10, 1)))
+            return Fraction(int(match["numerator"]), int(match["denominator"]))
+        value, unit = _value_and_unit(match, text, *((16, 2, 4) if kind == "hexadecimal" else (10, 10, 1)))
         return value * unit
     raise _refused(text, f"{word!r} is no number such as 1.5, 1/3, 0x1.8p-1 or -inf")
 
 
-def _value_and_unit(found: re.Match[str], text: str, base: int, step: int, steps_per_digit: int) -> tuple[int, Fraction]:
+def _value_and_unit(match: re.Match[str], text: str, base: int, step: int, steps_per_digit: int) -> tuple[int, Fraction]:
     """Return the digits as a whole number, and what its last digit counts: a power of `step`."""
-    exponent = int(found["exponent"] or 0)
+    exponent = int(match["exponent"] or 0)
     if abs(exponent) > _LARGEST_EXPONENT:
         raise _refused(text, f"the exponent {exponent} is beyond ±{_LARGEST_EXPONENT}; write inf, or 0")
-    digits = int(found["whole"] + found["fraction"], base)
-    unit = Fraction(step) ** (exponent - steps_per_digit * len(found["fraction"]))
-    return -digits if found["sign"] == "-" else digits, unit
+    digits = int(match["whole"] + match["fraction"], base)
+    unit = Fraction(step) ** (exponent - steps_per_digit * len(match["fraction"]))
+    return -digits if match["sign"] == "-" else digits, unit
 
 
 def _uncertain(word: str, text: str) -> tuple[_Number, _Number]:
-    found = _UNCERTAIN.fullmatch(word)
-    if not found:
+    match = _UNCERTAIN.fullmatch(word)
+    if not match:
         raise _refused(text, "write [1.0, 2.0], [1/3], [empty], [entire] or 1.5?, without a decoration")
-    value, unit = _value_and_unit(found, text, 10, 10, 1)
+    value, unit = _value_and_unit(match, text, 10, 10, 1)
     middle = value * unit
-    if found["radius"] == "?":
+    if match["radius"] == "?":
         bounds: tuple[_Number, _Number] = -math.inf, math.inf
     else:
-        radius = int(found["radius"]) * unit if found["radius"] else unit / 2
+        radius = int(match["radius"]) * unit if match["radius"] else unit / 2
         bounds = middle - radius, middle + radius
-    return middle if found["direction"] == "u" else bounds[0], middle if found["direction"] == "d" else bounds[1]
+    return middle if match["direction"] == "u" else bounds[0], middle if match["direction"] == "d" else bounds[1]

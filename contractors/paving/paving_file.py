@@ -64,15 +64,15 @@ def read(path: str | Path) -> tuple[Boxes, Boxes, Limit, int]:
     """
     try:
         with Path(path).open("rb") as file, np.load(file, allow_pickle=False) as archive:
-            found = str(archive["format"])
+            stated = str(archive["format"])
             inner, boundary = (Boxes(archive[f"{part}_lower"], archive[f"{part}_upper"]) for part in ("inner", "boundary"))
             limited, nodes = str(archive["limited"]), int(archive["nodes"])
     except FileNotFoundError:
         raise PavingError(f"{path}: there is no such file; give a file that Paving.save has written") from None
     except Exception as error:  # a damaged archive makes its readers raise nearly anything
         raise PavingError(f"{path}: the file is damaged or no paving ({error}); give a file that Paving.save has written") from None
-    if found != _FORMAT:
-        raise PavingError(f"{path}: the file is {found!r}, not {_FORMAT!r}; save the paving again with this version of ial")
+    if stated != _FORMAT:
+        raise PavingError(f"{path}: the file is {stated!r}, not {_FORMAT!r}; save the paving again with this version of ial")
     _check(path, inner, boundary, limited)
     return inner, boundary, cast(Limit, limited), nodes
 

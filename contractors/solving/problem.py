@@ -147,13 +147,13 @@ class Problem(CheckedContractor):
         ValueError
             If the problem is not proved empty at this precision.
         """
-        found = conflict(self.constraints, self._propagated, self.box, precision, **options)
-        if found is None:
+        explanation = conflict(self.constraints, self._propagated, self.box, precision, **options)
+        if explanation is None:
             raise ValueError(
                 f"at the precision {precision} the problem of {len(self.constraints)} constraints is not proved empty, and nothing is to "
                 "be explained: solve(precision) shows where solutions may be; give a finer precision, or raise limits such as max_boxes"
             )
-        return found
+        return explanation
 
     def _narrow(self, boxes: Boxes) -> Boxes:
         return self._propagation.contract(boxes & self.box)

@@ -63,7 +63,7 @@ class Propagation(CheckedContractor):
             self._affected.append(others)
 
     def _narrow(self, boxes: Boxes) -> Boxes:
-        found = Boxes(boxes.lower.copy(), boxes.upper.copy())
+        narrowed = Boxes(boxes.lower.copy(), boxes.upper.copy())
         queued = np.repeat(~boxes.empty[:, None], len(self.contractors), axis=1)
         for _ in range(self.max_rounds):
             if not queued.any():
@@ -72,13 +72,13 @@ class Propagation(CheckedContractor):
                 rows = np.flatnonzero(queued[:, at])
                 if not len(rows):
                     continue
-                before = found[rows]
+                before = narrowed[rows]
                 after = contractor.contract(before)
-                found.lower[rows], found.upper[rows] = after.lower, after.upper
+                narrowed.lower[rows], narrowed.upper[rows] = after.lower, after.upper
                 queued[rows, at] = False
                 queued[rows] |= _narrowed(before, after, self.ratio) @ self._affected[at]
                 queued[rows[after.empty]] = False
-        return found
+        return narrowed
 
 
 def axes_of(member: Member) -> set[int]:

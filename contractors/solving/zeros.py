@@ -38,6 +38,10 @@ class Certificate:
     boxes: Boxes
     unique: npt.NDArray[np.bool_]
 
+    def __repr__(self) -> str:
+        zeros = f"one zero in {self.unique.sum()}, none in {self.none.sum()}, unknown of {self.unknown.sum()}"
+        return f"<Certificate of {len(self.boxes)} boxes: {zeros}>"
+
     @property
     def none(self) -> npt.NDArray[np.bool_]:
         """Which boxes are proved to hold no zero, shape (n,)."""
@@ -108,20 +112,20 @@ def certify(function: Function, boxes: Boxes) -> Certificate:
     newton = Newton(function)
     require_dimension(newton, boxes)
     check_rounding()
-    found = Boxes(boxes.lower.copy(), boxes.upper.copy()).where(~boxes.empty)
+    narrowed = Boxes(boxes.lower.copy(), boxes.upper.copy()).where(~boxes.empty)
     unique = np.zeros(len(boxes), dtype=np.bool_)
-    rows = np.flatnonzero(~found.empty)
+    rows = np.flatnonzero(~narrowed.empty)
     for _ in range(_STEPS):
         if not len(rows):
             break
-        before = found[rows]
+        before = narrowed[rows]
         after, proved = newton.step(before)
-        found.lower[rows], found.upper[rows] = after.lower, after.upper
+        narrowed.lower[rows], narrowed.upper[rows] = after.lower, after.upper
         unique[rows] |= proved  # what was cut off before holds no zero, so the proof is one for the whole box
         with np.errstate(invalid="ignore"):
             pays = ((after.width() < _PAYS * before.width()) | (np.isfinite(after.width()) & ~np.isfinite(before.width()))).any(axis=1)
         rows = rows[pays & ~after.empty]
-    return Certificate(found, unique)
+    return Certificate(narrowed, unique)
 
 
 def zeros(function: Function, box: Boxes, precision: npt.ArrayLike, **options: Any) -> Zeros:

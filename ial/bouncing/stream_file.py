@@ -1,4 +1,4 @@
-"""Writing a stream of observations, and the poses behind it, as text."""
+"""Writing a stream of observations, and the poses that belong to it, as text."""
 
 from collections.abc import Iterable
 from pathlib import Path
@@ -22,7 +22,7 @@ def write_stream(observations: Iterable[int], path: Path) -> None:
 
 
 def write_truth(poses: Iterable[RealPose], path: Path) -> None:
-    """Write the pose behind each observation as comma-separated values.
+    """Write the pose after each observation as comma-separated values.
 
     Raises
     ------

@@ -28,10 +28,10 @@ def read(base: R, content: Mapping[Any, Any]) -> R:
         If a key is unknown, or a value may not be given. All faults are said.
     """
     faults: list[str] = []
-    found = _record(type(base), base, content, (), faults)
-    if found is None:
+    record = _record(type(base), base, content, (), faults)
+    if record is None:
         raise ConfigError("; ".join(faults))
-    return found
+    return record
 
 
 def _record(kind: type[R], base: R | None, content: Mapping[Any, Any], path: tuple[str, ...], faults: list[str]) -> R | None:

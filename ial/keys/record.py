@@ -50,11 +50,11 @@ def keys_of(record: type[Record]) -> Mapping[str, Key]:
 
 def plain(record: Record) -> dict[str, Any]:
     """Return a record as a file holds it: keys, and values that YAML and JSON have."""
-    found: dict[str, Any] = {}
+    content: dict[str, Any] = {}
     for name, each in keys_of(type(record)).items():
         value = each.kind.written(getattr(record, name))
-        found |= value if isinstance(each.kind, Part) and each.kind.flat else {name: value}
-    return found
+        content |= value if isinstance(each.kind, Part) and each.kind.flat else {name: value}
+    return content
 
 
 @dataclass(frozen=True)

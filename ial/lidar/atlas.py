@@ -50,15 +50,15 @@ class AtlasModel(Worlds[PoseSet, Motion | None, Beams]):
 
     def _contracted(self, states: dict[str, PoseSet], reading: Beams) -> PoseSets:
         """Contract map by map, each in an equal part of the time that is left."""
-        found = {}
+        contracted = {}
         for waiting, (name, model) in zip(range(len(self._maps), 0, -1), self._maps.items(), strict=True):
-            found[name] = model.contract(states[name], replace(reading, deadline=reading.deadline.part(1.0 / waiting)))
-        return PoseSets(found)
+            contracted[name] = model.contract(states[name], replace(reading, deadline=reading.deadline.part(1.0 / waiting)))
+        return PoseSets(contracted)
 
-    def unite(self, found: dict[str, PoseSet], predicted: dict[str, PoseSet]) -> dict[str, PoseSet]:
+    def unite(self, confirmed: dict[str, PoseSet], predicted: dict[str, PoseSet]) -> dict[str, PoseSet]:
         """Return the union in each map. Where nothing was found in any, q is compared with that of the prediction hereafter."""
-        accepted = PoseSets(found if len(PoseSets(found)) else predicted).accepted
-        return {name: replace(each, accepted=accepted) for name, each in super().unite(found, predicted).items()}
+        accepted = PoseSets(confirmed if len(PoseSets(confirmed)) else predicted).accepted
+        return {name: replace(each, accepted=accepted) for name, each in super().unite(confirmed, predicted).items()}
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ class Whereabouts:
     @property
     def possible(self) -> tuple[str, ...]:
         """The names of the maps in which the robot may be."""
-        return tuple(name for name, found in self.hypotheses.items() if found)
+        return tuple(name for name, remaining in self.hypotheses.items() if remaining)
 
 
 class Atlas:
@@ -167,8 +167,8 @@ class Atlas:
         hypotheses = {
             name: find_hypotheses(poses, self.grids[name], counted=counted, rejected=lost) for name, poses in known.by_map.items()
         }
-        every = tuple(each for found in hypotheses.values() for each in found)
-        status = judge(every, self.config.localized_size, rejected=lost, found=not known.unconfirmed)
+        every = tuple(each for of_map in hypotheses.values() for each in of_map)
+        status = judge(every, self.config.localized_size, rejected=lost, confirmed=not known.unconfirmed)
         place = next(name for name, each in hypotheses.items() if each) if status == "localized" else None
         return Whereabouts(
             stamp_ns=scan.stamp_ns,

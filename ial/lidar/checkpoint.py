@@ -26,14 +26,14 @@ _FORM = "ial checkpoint 4"
 
 @dataclass(frozen=True, eq=False)
 class Checkpoint:
-    """What is needed to go on behind a scan.
+    """What is needed to go on after a scan.
 
     Parameters
     ----------
     mark
         The last processed scan.
     poses
-        The set of poses behind it, in the grid's frame.
+        The set of poses after it, in the grid's frame.
     output
         The file of the answers and the line of that scan, which may be missing there; None if there is no such file.
     fingerprint
@@ -97,7 +97,7 @@ class Checkpoint:
             clock = int(about["raised_ns"]), int(about["behind_ns"])
             mark = Mark(int(about["index"]), int(about["stamp_ns"]), Odometry(**about["odometry"]), *clock)
             output = None if about["output"] is None else OutputEnd(**about["output"])
-            found = cls(mark, poses, output, str(about["fingerprint"]))
+            checkpoint = cls(mark, poses, output, str(about["fingerprint"]))
         except FileNotFoundError:
             return None
         except OSError as error:
@@ -106,11 +106,11 @@ class Checkpoint:
             raise RecordingError(
                 f"{path}: no state that this version of ial has written, or a damaged one; give another file, or remove it to begin anew"
             ) from None
-        if found.fingerprint != fingerprint(localizer):
+        if checkpoint.fingerprint != fingerprint(localizer):
             raise RecordingError(
                 f"{path}: this state belongs to another map, configuration, start or version of ial; use those, or remove it to begin anew"
             )
-        return found
+        return checkpoint
 
 
 def fingerprint(localizer: Localizer) -> str:

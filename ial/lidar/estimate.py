@@ -102,7 +102,7 @@ def radius(poses: PoseSet, pose: Pose, grid: OccupancyGrid) -> float:
     return float(np.hypot(away[:, 0], away[:, 1]).max() * ABOVE)
 
 
-def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: bool, found: bool, symmetric: bool = False) -> Status:
+def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: bool, confirmed: bool, symmetric: bool = False) -> Status:
     """Return the status word for a set of hypotheses.
 
     Parameters
@@ -113,13 +113,13 @@ def judge(hypotheses: tuple[Hypothesis, ...], size: LocalizedSize, *, rejected: 
         The half-widths up to which a single hypothesis counts as localized.
     rejected
         Whether the scan fitted nowhere in the prediction.
-    found
+    confirmed
         Whether it fitted anywhere.
     symmetric
         Whether the consistent poses of the hypotheses are images of each other; see `are_images`.
     """
     if rejected:
-        return "lost" if found else "blind"
+        return "lost" if confirmed else "blind"
     if len(hypotheses) == 1:
         position, heading = hypotheses[0].half_widths
         if position <= size.position_m and heading <= size.heading_rad:

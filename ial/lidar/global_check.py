@@ -61,13 +61,13 @@ def check_everywhere(model: LidarModel, poses: PoseSet, beams: Beams) -> GlobalC
         return None
     confirmed = poses.boxes[~poses.unconfirmed]
     inside = int(poses.bad[~poses.unconfirmed].min())
-    found = model.contract(model.universe(), beams.allowing(inside))
-    if found.limited:
+    everywhere = model.contract(model.universe(), beams.allowing(inside))
+    if everywhere.limited:
         return None
-    labels = cluster(Boxes.concatenate([confirmed, found.boxes]), circular=(2,)).labels
+    labels = cluster(Boxes.concatenate([confirmed, everywhere.boxes]), circular=(2,)).labels
     outside = ~np.isin(labels[len(confirmed) :], labels[: len(confirmed)])
     if not outside.any():
         return GlobalCheck(inside)
-    others = PoseSet(found.boxes[outside], bad=found.bad[outside], outliers=inside)
+    others = PoseSet(everywhere.boxes[outside], bad=everywhere.bad[outside], outliers=inside)
     best = max(find_hypotheses(others, model.grid), key=lambda each: each.spare_beams or 0)
     return GlobalCheck(inside, int(others.bad.min()), best)

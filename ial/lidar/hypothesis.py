@@ -72,12 +72,12 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True
     order = np.argsort(clusters.labels, kind="stable")
     edges = np.searchsorted(clusters.labels[order], np.arange(len(clusters) + 1))
     theta = grid.boxes_to_map(clusters.hulls)
-    found = []
+    hypotheses = []
     for label, (start, stop) in enumerate(itertools.pairwise(edges)):
         rows = order[start:stop]
         sure = rows[~poses.unconfirmed[rows]]
         hull = Boxes(in_map.lower[rows], in_map.upper[rows]).hull()
-        found.append(
+        hypotheses.append(
             Hypothesis(
                 x=(float(hull.lower[0, 0]), float(hull.upper[0, 0])),
                 y=(float(hull.lower[0, 1]), float(hull.upper[0, 1])),
@@ -88,4 +88,4 @@ def find_hypotheses(poses: PoseSet, grid: OccupancyGrid, *, counted: bool = True
                 spare_beams=poses.outliers - int(poses.bad[sure].min()) if counted and len(sure) else None,
             )
         )
-    return tuple(sorted(found, key=lambda each: -each.volume))
+    return tuple(sorted(hypotheses, key=lambda each: -each.volume))

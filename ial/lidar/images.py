@@ -6,11 +6,12 @@ import numpy.typing as npt
 from ial.contractors.boxes import Boxes
 from ial.contractors.margins import ROUNDINGS
 from ial.contractors.paving.clusters import cluster
+from ial.lidar.pose_set import PoseSet
 from ial.maps.grids.rigid_transform import boxes_from_frame
 from ial.pose import Pose
 
 
-def are_images(boxes: Boxes, symmetries: tuple[Pose, ...], size_m: float) -> bool:
+def are_images(poses: PoseSet, symmetries: tuple[Pose, ...], size_m: float) -> bool:
     """Return whether the consistent poses of any hypothesis are images of those of any other.
 
     Let E be the poses that are consistent with all data. If all of the map was possible at the start, a rotation that maps the map onto
@@ -21,8 +22,8 @@ def are_images(boxes: Boxes, symmetries: tuple[Pose, ...], size_m: float) -> boo
 
     Parameters
     ----------
-    boxes
-        A set of poses in the grid's frame that holds all consistent ones.
+    poses
+        A set that holds all consistent ones.
     symmetries
         Of the map, in the grid's frame; none where the start was not all of the map.
     size_m
@@ -30,8 +31,7 @@ def are_images(boxes: Boxes, symmetries: tuple[Pose, ...], size_m: float) -> boo
     """
     if not symmetries:
         return False
-    labels = cluster(boxes, circular=(2,)).labels
-    count = int(labels.max(initial=-1)) + 1
+    boxes, labels, count = poses.boxes, poses.clusters.labels, len(poses.clusters)
     if not 1 < count <= 1 + len(symmetries):
         return False
     # A symmetry is made of doubles: the sine of its angle, its middle, and two products of poses are fewer than 31 roundings of terms that

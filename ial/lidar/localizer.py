@@ -161,8 +161,8 @@ class Localizer:
             hypotheses,
             self.config.localized_size,
             rejected=rejection is not None,
-            found=not bool(poses.unconfirmed.all()),
-            symmetric=are_images(poses.boxes, symmetries, self.grid.width_m + self.grid.height_m),
+            confirmed=not bool(poses.unconfirmed.all()),
+            symmetric=are_images(poses, symmetries, self.grid.width_m + self.grid.height_m),
         )
         pose = hypotheses[0].centre if status == "localized" else None
         return Estimate(

@@ -78,6 +78,9 @@ class LidarModel(ContractingModel[PoseSet, Motion | None, Beams]):
         most = _LAID_OUT_CELLS if config.max_seconds is None else max(64, int(_CELLS_PER_S * config.max_seconds))
         self._affordable = min(most, _LAID_OUT_CELLS, config.max_boxes)
 
+    def __repr__(self) -> str:
+        return f"<LidarModel in {self.grid}>"
+
     def universe(self) -> PoseSet:
         """Return every pose in the map."""
         return self._universe
@@ -155,13 +158,13 @@ class LidarModel(ContractingModel[PoseSet, Motion | None, Beams]):
 
     def _paved(self, boxes: Boxes, reading: Beams) -> PoseSet:
         pieces = list(self.sections.parts(boxes))
-        found: list[PoseSet] = []
+        searched: list[PoseSet] = []
         for number, (key, _, piece) in enumerate(pieces):
-            found.append(self._searched(self.sections[key], piece, reading, self.config.max_boxes - sum(map(len, found))))
-            if found[-1].limited:
+            searched.append(self._searched(self.sections[key], piece, reading, self.config.max_boxes - sum(map(len, searched))))
+            if searched[-1].limited:
                 ahead = (PoseSet(piece) for _, _, piece in pieces[number + 1 :])
-                return self._coarsened(join([*found, *ahead], reading.outliers), reading)
-        return join(found, reading.outliers)
+                return self._coarsened(join([*searched, *ahead], reading.outliers), reading)
+        return join(searched, reading.outliers)
 
     def _searched(self, tables: MapTables, boxes: Boxes, reading: Beams, max_boxes: int) -> PoseSet:
         """Return the cells in boxes that may hold a consistent pose; where a limit is reached, boxes that cover what is left, marked."""
@@ -181,7 +184,7 @@ class LidarModel(ContractingModel[PoseSet, Motion | None, Beams]):
     def _tried(self, tables: MapTables, bitmaps: CellBitmaps, boxes: Boxes, reading: Beams) -> PoseSet:
         """Return the cells that may hold a consistent pose; where they are too many, or the time is up, the boxes, marked."""
         deadline = Deadline(reading.deadline.left_s, _FIRST_BITMAPS)
-        found, counts, total = [Boxes.none(3)], [np.empty(0, dtype=np.int16)], 0
+        allowed, counts, total = [Boxes.none(3)], [np.empty(0, dtype=np.int16)], 0
         start = 0
         while start < len(bitmaps.keys):
             portion = deadline.portion(min(_CHUNK, len(bitmaps.keys) - start))
@@ -194,20 +197,20 @@ class LidarModel(ContractingModel[PoseSet, Motion | None, Beams]):
             if total > self.config.max_boxes:
                 return PoseSet(boxes, limited="boxes")
             cells, bad = self._looked_along(tables, self.lattice.boxes(left), left.values(least), reading)
-            found.append(cells)
+            allowed.append(cells)
             counts.append(bad)
             deadline.worked(portion)
             start += portion
-        return PoseSet(Boxes.concatenate(found), bad=np.concatenate(counts), outliers=reading.outliers)
+        return PoseSet(Boxes.concatenate(allowed), bad=np.concatenate(counts), outliers=reading.outliers)
 
-    def _coarsened(self, found: PoseSet, reading: Beams) -> PoseSet:
-        """Return what a search has found; if a limit has stopped it, as not too many coarse cells that cover it."""
-        if not found.limited:
-            return found
-        boxes = found.boxes
-        most = min(2 * len(boxes), self._affordable if found.limited == "time" else self.config.max_boxes)
+    def _coarsened(self, poses: PoseSet, reading: Beams) -> PoseSet:
+        """Return what a search has left; if a limit has stopped it, as not too many coarse cells that cover it."""
+        if not poses.limited:
+            return poses
+        boxes = poses.boxes
+        most = min(2 * len(boxes), self._affordable if poses.limited == "time" else self.config.max_boxes)
         cells = self.lattice.cover(boxes, most, boxes.volume())
-        return PoseSet(cells, limited=found.limited, outliers=reading.outliers)
+        return PoseSet(cells, limited=poses.limited, outliers=reading.outliers)
 
     def _looked_along(
         self, tables: MapTables, cells: Boxes, bad: npt.NDArray[np.int16], reading: Beams
@@ -242,9 +245,9 @@ class LidarModel(ContractingModel[PoseSet, Motion | None, Beams]):
         at = Boxes.of([(pose.x, pose.x), (pose.y, pose.y)])
         return any(bool(self.sections[key].domain.meet(part)[0]) for key, _, part in self.sections.parts(at))
 
-    def unite(self, found: PoseSet, predicted: PoseSet) -> PoseSet:
+    def unite(self, confirmed: PoseSet, predicted: PoseSet) -> PoseSet:
         """Return poses that a scan allows and, as unconfirmed ones, poses of which the odometry alone is known."""
-        return unite(found, predicted)
+        return unite(confirmed, predicted)
 
     def exhausted(self, states: PoseSet, motion: Motion | None) -> bool:
         """Return whether a step from here searches the whole map."""

@@ -17,7 +17,11 @@ from ial.pose import Pose
 
 @dataclass(frozen=True, eq=False)
 class PoseSet:
-    """A set of poses (x, y, θ) of the robot's base.
+    """A set of poses (x, y, θ) of the robot's base, and with how many bad beams the last scan was taken to leave it.
+
+    These numbers stay with the set, since what is done with it next depends on them, in another process, too. Where q is chosen at the
+    scan, a search leaves the sets of many q at once, box by box, and `within` takes one of them; its border is cut back with the same q;
+    the rest of the map is searched for places where fewer beams are bad than here; and the next scan compares its q with this one.
 
     Parameters
     ----------
@@ -109,20 +113,20 @@ def _names(boxes: Boxes) -> npt.NDArray[np.void]:
     return np.ascontiguousarray(bounds).view(f"V{bounds.itemsize * bounds.shape[1]}").reshape(-1)
 
 
-def unite(found: PoseSet, predicted: PoseSet) -> PoseSet:
+def unite(confirmed: PoseSet, predicted: PoseSet) -> PoseSet:
     """Return the union of poses that a scan allows, as its search has left them, and poses that are only predicted: unconfirmed ones."""
     return PoseSet(
-        Boxes.concatenate([found.boxes, predicted.boxes]),
-        np.concatenate([found.unconfirmed, np.ones(len(predicted), dtype=np.bool_)]),
-        found.limited or predicted.limited,
-        np.concatenate([found.bad, predicted.bad]),
-        found.outliers,
-        found.accepted if len(found) else predicted.accepted,
+        Boxes.concatenate([confirmed.boxes, predicted.boxes]),
+        np.concatenate([confirmed.unconfirmed, np.ones(len(predicted), dtype=np.bool_)]),
+        confirmed.limited or predicted.limited,
+        np.concatenate([confirmed.bad, predicted.bad]),
+        confirmed.outliers,
+        confirmed.accepted if len(confirmed) else predicted.accepted,
     )
 
 
 def join(parts: Sequence[PoseSet], outliers: int) -> PoseSet:
-    """Return the union of what one search has found in several places, of confirmed poses only."""
+    """Return the union of what one search has left in several places, of confirmed poses only."""
     return PoseSet(
         Boxes.concatenate([Boxes.none(3), *(each.boxes for each in parts)]),
         limited=next((each.limited for each in parts if each.limited), ""),

@@ -31,7 +31,7 @@ def localize(
     static
         Localize each scan by itself.
     after
-        Go on behind this scan, with a localizer that has been there.
+        Go on after this scan, with a localizer that has been there.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""The one idea behind every localizer here: start from all states, move them with the robot, keep those that the readings allow.
+"""The one idea of every localizer here: start from all states, move them with the robot, keep those that the readings allow.
 
 An empty set proves that some assumption is false: the robot was moved by hand, the map is another one, or an error bound was violated.
 What does not depend on the robot is here: the filter and its recovery, several worlds at once, and readings of which some are wrong.

@@ -44,13 +44,13 @@ class Lapses(Model[tuple[States, ...], Motion, Reading]):
         """Return where a motion can lead with a reading that is right or wrong."""
         right = [self.model.step(each, motion, reading) for each in states]
         wrong = [self.model.predict(each, motion) for each in states[: self.most]]
-        both = [self.model.unite(found, missed) for found, missed in zip(right[1:], wrong, strict=False)]
+        both = [self.model.unite(kept, missed) for kept, missed in zip(right[1:], wrong, strict=False)]
         return (right[0], *both, *wrong[len(both) :])
 
-    def unite(self, found: tuple[States, ...], predicted: tuple[States, ...]) -> tuple[States, ...]:
+    def unite(self, confirmed: tuple[States, ...], predicted: tuple[States, ...]) -> tuple[States, ...]:
         """Return the union for each number of wrong readings."""
-        both = [self.model.unite(*each) for each in zip(found, predicted, strict=False)]
-        return (*both, *found[len(both) :], *predicted[len(both) :])
+        both = [self.model.unite(*each) for each in zip(confirmed, predicted, strict=False)]
+        return (*both, *confirmed[len(both) :], *predicted[len(both) :])
 
     def empty(self, states: tuple[States, ...]) -> bool:
         """Return whether no state is left: more readings are wrong than may be, or something else is."""

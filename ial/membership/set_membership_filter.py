@@ -77,13 +77,13 @@ class SetMembershipFilter(Generic[States, Motion, Reading]):
 
     def _recovered(self, before: States, motion: Motion, reading: Reading) -> States:
         """Return the set to go on with after a rejection."""
-        found = self.remaining  # nothing
+        states = self.remaining  # nothing
         if self.recovery == "absorb":
-            return found
+            return states
         if not self.model.exhausted(before, motion):
-            found = self.model.anew(reading)
-            left = self.model.refine(found, reading)
-            found = left if self.model.empty(left) else found
-        if self.recovery == "restart" and not self.model.empty(found):
-            return found
-        return self.model.unite(found, self.model.predict(before, motion))
+            states = self.model.anew(reading)
+            left = self.model.refine(states, reading)
+            states = left if self.model.empty(left) else states
+        if self.recovery == "restart" and not self.model.empty(states):
+            return states
+        return self.model.unite(states, self.model.predict(before, motion))

@@ -83,9 +83,9 @@ def _refine(start, stop, table, poses, ends, steps, scores):  # type: ignore[no-
                 x, y, theta = poses[row]
                 for k in range(27):
                     at_x, at_y, heading = x + (k % 3 - 1) * step, y + (k // 3 % 3 - 1) * step, theta + (k // 9 - 1) * turn
-                    found = score_turned(table, np.float32(at_x), np.float32(at_y), heading, ends, cells)
-                    if found > scores[row]:
-                        scores[row] = found
+                    score = score_turned(table, np.float32(at_x), np.float32(at_y), heading, ends, cells)
+                    if score > scores[row]:
+                        scores[row] = score
                         poses[row, 0], poses[row, 1], poses[row, 2] = at_x, at_y, heading
                         better = True
 

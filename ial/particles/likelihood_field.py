@@ -93,7 +93,7 @@ class LikelihoodField:
 def score(table, x, y, ends, cells):  # type: ignore[no-untyped-def]
     """Return the mean term of beams that end at (x, y) + ends[:, i].
 
-    The cells are found first and added up then: so the compiler makes vector code of the first loop, which halves the time.
+    The cells are computed first and added up then: so the compiler makes vector code of the first loop, which halves the time.
 
     Parameters
     ----------

@@ -57,6 +57,9 @@ class BoundsSurvey:
         self._kept: list[bool] = []
         self._previous: Pose | None = None
 
+    def __repr__(self) -> str:
+        return f"<BoundsSurvey of {self.scans} scans and {len(self._steps)} steps>"
+
     def add(self, step: Step, pose: Pose | None, *, beams: bool = True) -> None:
         """Take a scan and ``T_map_base`` of a reference, None where there is none; `beams` says whether its beams count, too.
 
@@ -158,5 +161,5 @@ class BoundsSurvey:
 def _quantiles(values: FloatArray) -> dict[str, float] | None:
     if not len(values):
         return None
-    found = {f"{share:g}": float(value) for share, value in zip(QUANTILES, np.quantile(values, QUANTILES), strict=True)}
-    return {**found, "max": float(values.max())}
+    quantiles = {f"{share:g}": float(value) for share, value in zip(QUANTILES, np.quantile(values, QUANTILES), strict=True)}
+    return {**quantiles, "max": float(values.max())}

@@ -51,6 +51,9 @@ class Containment:
         self._errors: list[float] = []
         self.misses: list[dict[str, Any]] = []
 
+    def __repr__(self) -> str:
+        return f"<Containment of {self._counts['scans']} scans: the reference is missed in {len(self.misses)}>"
+
     def reference(self, step: Step) -> Pose | None:
         """Return ``T_map_base`` of the reference at a scan, None where it has none."""
         return base_pose(self._truth, self._frame, step)

@@ -29,6 +29,9 @@ class Domain:
         self._radius_m = config.robot_radius_m
         self._obstacles = obstacles
 
+    def __repr__(self) -> str:
+        return f"<Domain of {np.count_nonzero(self._allowed)} cells of {self._resolution:g} m>"
+
     def holds(self, poses: FloatArray) -> BoolArray:
         """Return which poses in the grid's frame, shape (n, 2 or more), are certainly in the domain: whichever way their numbers round."""
         slack = slack_m(poses[:, :2])

@@ -42,6 +42,10 @@ class Failures:
         self.ended: Counts = np.zeros(shape, dtype=np.int32)
         self.passed: Counts = np.zeros(shape, dtype=np.int32)
 
+    def __repr__(self) -> str:
+        failed = int(self.ended.sum() + self.passed.sum())
+        return f"<Failures: {failed} of {failed + int(self.good.sum())} beams>"
+
     def count(self, counts: Counts, points: FloatArray) -> None:
         """Add one for each point, in the grid's frame, shape (n, 2), to one of the three counts; those outside the map are left out."""
         column, row = np.floor(points / self.cell_m).astype(np.int64).T

@@ -39,13 +39,13 @@ def bad_beams(beams: UsedBeams, poses: FloatArray, obstacles: Obstacles) -> npt.
 
 def consistent(beams: UsedBeams, poses: FloatArray, obstacles: Obstacles, outliers: int) -> BoolArray:
     """Return at which poses certainly at most so many beams are bad, bool of shape (m,): `bad_beams`, without work that changes nothing."""
-    found = np.zeros(len(poses), dtype=np.bool_)
+    fits = np.zeros(len(poses), dtype=np.bool_)
     rows = np.flatnonzero((~_hopeful(beams, poses, obstacles)).sum(axis=1) <= outliers)
     good = good_beams(beams, poses[rows], obstacles)
     few = (~good).sum(axis=1) <= outliers
     rows, good = rows[few], good[few]
-    found[rows] = _count(beams, poses[rows], obstacles, good) <= outliers
-    return found
+    fits[rows] = _count(beams, poses[rows], obstacles, good) <= outliers
+    return fits
 
 
 def good_beams(beams: UsedBeams, poses: FloatArray, obstacles: Obstacles) -> BoolArray:

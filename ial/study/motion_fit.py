@@ -46,7 +46,7 @@ class RecordedStep:
 def fitted(bounds: MotionBounds, steps: Sequence[RecordedStep], share: float) -> MotionBounds:
     """Return bounds of which every part is multiplied by one factor: the smallest with which a share of the steps keeps them.
 
-    First the rotation, which does not depend on the translation; then the translation, with the rotation that was found. Parts are rounded
+    First the rotation, which does not depend on the translation; then the translation, with that rotation. Parts are rounded
     up to two digits. What is composed does not grow evenly with its parts, so factors are tried.
 
     Parameters

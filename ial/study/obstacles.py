@@ -38,6 +38,9 @@ class Obstacles:
         self.mask = grid.mask(OCCUPIED)
         self._windows: dict[int, tuple[BoolArray, BoolArray]] = {}
 
+    def __repr__(self) -> str:
+        return f"<Obstacles: {np.count_nonzero(self.mask)} occupied cells of {self.resolution:g} m>"
+
     @functools.cached_property
     def _tree(self) -> cKDTree:
         return cKDTree((np.argwhere(self.mask)[:, ::-1] + 0.5) * self.resolution)
@@ -52,9 +55,9 @@ class Obstacles:
         count = np.array([len(each) for each in near], dtype=np.intp)
         row = np.repeat(np.arange(len(points)), count)
         aside = np.maximum(np.abs(points[row] - self._tree.data[np.concatenate(near).astype(np.intp)]) - half, 0.0)
-        found = np.full(len(points), np.inf)
-        np.minimum.at(found, row, np.hypot(aside[:, 0], aside[:, 1]))
-        return found
+        nearest = np.full(len(points), np.inf)
+        np.minimum.at(nearest, row, np.hypot(aside[:, 0], aside[:, 1]))
+        return nearest
 
     def near(self, starts: FloatArray, ends: FloatArray, distance: float) -> BoolArray:
         """Return which segments certainly come within a distance of a closed occupied cell, shape (n,).
@@ -66,9 +69,9 @@ class Obstacles:
         distance
             In metres, Euclidean; exactly as far counts.
         """
-        found = np.zeros(len(starts), dtype=np.bool_)
+        within = np.zeros(len(starts), dtype=np.bool_)
         if not len(starts):
-            return found
+            return within
         middles = 0.5 * (starts + ends)
         reach = 0.5 * float(np.abs(ends - starts).max()) + distance
         slack = slack_m(starts, ends, distance)
@@ -82,8 +85,8 @@ class Obstacles:
             aside = np.maximum(low - np.maximum(a, b), np.minimum(a, b) - high)
             likely = np.flatnonzero(np.maximum(aside[0], aside[1]) <= distance)
             close = _gaps(a[:, likely], b[:, likely], low[:, likely], high[:, likely]) <= distance
-            found[rows.start + row[likely[close]]] = True
-        return found
+            within[rows.start + row[likely[close]]] = True
+        return within
 
     def _all_occupied(self, rows: slice) -> tuple[IndexArray, IndexArray]:
         """Return what `occupied_around` does, with every cell for each of some rows."""
@@ -104,7 +107,7 @@ class Obstacles:
         Returns
         -------
         row, cells
-            Of shape (found,) and (found, 2).
+            Of shape (m,) and (m, 2).
         """
         mask, any_near = self._window(ring)
         pad = (len(mask) - len(self.mask)) // 2
@@ -121,8 +124,8 @@ class Obstacles:
         count = np.bincount(centre, minlength=len(middles))
         first = np.cumsum(count) - count
         row = np.repeat(np.arange(len(rows)), count[which])
-        found = first[which[row]] + np.arange(len(row)) - np.repeat(np.cumsum(count[which]) - count[which], count[which])
-        cell = middles[centre[found]] + offsets[step[found]]
+        entry = first[which[row]] + np.arange(len(row)) - np.repeat(np.cumsum(count[which]) - count[which], count[which])
+        cell = middles[centre[entry]] + offsets[step[entry]]
         return rows[row], np.stack([cell % width - pad, cell // width - pad], axis=1)
 
     def any_around(self, points: FloatArray, ring: int) -> BoolArray:

@@ -98,6 +98,6 @@ def _gaps_between(ray: IndexArray, low: FloatArray, high: FloatArray, count: int
     apart = ray * (4.0 * edge)  # moves the shadows of different rays off each other, so that all are passed through in one go
     gap = (low + apart)[1:] - np.maximum.accumulate(high + apart)[:-1]
     wide = (gap >= 1.99 * slack) & (ray[1:] == ray[:-1])
-    found = np.zeros(count, dtype=np.bool_)
-    found[ray[1:][wide]] = True
-    return found
+    gaps = np.zeros(count, dtype=np.bool_)
+    gaps[ray[1:][wide]] = True
+    return gaps

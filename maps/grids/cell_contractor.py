@@ -55,8 +55,8 @@ class CellContractor(RowContractor):
     dimension = 2
 
     def __init__(self, index: CellIndex) -> None:
-        if index.origin != (0, 0):
-            raise ValueError(f"the index is that of a part of a grid, from cell {index.origin} on; give one of the whole grid")
+        if index.cells.origin != (0, 0):
+            raise ValueError(f"the index is that of a part of a grid, from cell {index.cells.origin} on; give one of the whole grid")
         self._index = index
 
     def complement(self) -> "OutsideCells":
@@ -64,8 +64,8 @@ class CellContractor(RowContractor):
         return OutsideCells(self._index)
 
     def _narrow_rows(self, lower: FloatArray, upper: FloatArray) -> None:
-        index = self._index
-        threads.run(_contract_rows, len(lower), index.table, index.inverse_resolution, index.resolution, lower, upper)
+        cells = self._index.cells
+        threads.run(_contract_rows, len(lower), cells.table, cells.inverse_resolution, cells.resolution, lower, upper)
 
 
 class OutsideCells(RowContractor):
@@ -83,20 +83,20 @@ class OutsideCells(RowContractor):
 
     def __init__(self, index: CellIndex) -> None:
         self._index = index
-        rows, columns = index.table.shape
+        rows, columns = index.cells.table.shape
         areas = np.multiply.outer(np.arange(rows, dtype=np.int32), np.arange(columns, dtype=np.int32))
-        self._table = areas - index.table  # the summed-area table of all other cells
+        self._table = areas - index.cells.table  # the summed-area table of all other cells
 
     def complement(self) -> CellContractor:
         """Return the contractor of the points in a cell of the set."""
         return CellContractor(self._index)
 
     def _narrow(self, boxes: Boxes) -> Boxes:
-        found, resolution = super()._narrow(boxes), self._index.resolution
+        narrowed, resolution = super()._narrow(boxes), self._index.cells.resolution
         for axis, cells in enumerate((self._table.shape[1] - 1, self._table.shape[0] - 1)):
-            threads.run(_widen_beyond, len(boxes), axis, cells, resolution, boxes.lower, boxes.upper, found.lower, found.upper)
-        return found
+            threads.run(_widen_beyond, len(boxes), axis, cells, resolution, boxes.lower, boxes.upper, narrowed.lower, narrowed.upper)
+        return narrowed
 
     def _narrow_rows(self, lower: FloatArray, upper: FloatArray) -> None:
-        index = self._index
-        threads.run(_contract_rows, len(lower), self._table, index.inverse_resolution, index.resolution, lower, upper)
+        cells = self._index.cells
+        threads.run(_contract_rows, len(lower), self._table, cells.inverse_resolution, cells.resolution, lower, upper)

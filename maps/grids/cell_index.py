@@ -14,10 +14,8 @@ from ial.contractors.intervals.arithmetic import mul
 from ial.contractors.kernels import kernel
 from ial.contractors.margins import ABOVE, BELOW
 from ial.errors import MapError
+from ial.maps.grids.cell_table import BORDER, CellTable, Counts
 from ial.maps.grids.occupancy_grid import check_resolution, check_size
-
-BORDER = 64
-"""Columns on either side of a table that repeat its edge: rectangles up to this far outside are looked up without a test."""
 
 
 @kernel
@@ -63,12 +61,13 @@ def cells_met(inverse_resolution, lower, upper, origin, cells):  # type: ignore[
 
 
 @kernel
-def meets(table, origin, inverse_resolution, xl, xu, yl, yu):  # type: ignore[no-untyped-def]
-    """Return whether a rectangle meets a cell of the set; never False where it does. An empty rectangle meets nothing."""
+def meets(cells, xl, xu, yl, yu):  # type: ignore[no-untyped-def]
+    """Return whether a rectangle meets a cell of a `CellTable`; never False where it does. An empty rectangle meets nothing."""
     if not (xl <= xu and yl <= yu):
         return False
-    column0, column1 = cells_met(inverse_resolution, xl, xu, origin[1], table.shape[1] - 1)
-    row0, row1 = cells_met(inverse_resolution, yl, yu, origin[0], table.shape[0] - 1)
+    table = cells.table
+    column0, column1 = cells_met(cells.inverse_resolution, xl, xu, cells.origin[1], table.shape[1] - 1)
+    row0, row1 = cells_met(cells.inverse_resolution, yl, yu, cells.origin[0], table.shape[0] - 1)
     return column0 < column1 and row0 < row1 and count(table, row0, row1, column0, column1) > 0
 
 
@@ -98,7 +97,7 @@ def _cells_exactly_met(inverse_resolution, resolution, lower, upper, cells):  # 
 
 @kernel
 def columns_with_cells(table, row0, row1, column0, column1):  # type: ignore[no-untyped-def]
-    """Return the range from the first to behind the last column with a cell of the set; there must be one."""
+    """Return the range from the first column with a cell of the set to one past the last; there must be one."""
     low, high = column0, column1 - 1
     while low < high:
         middle = (low + high) // 2
@@ -119,7 +118,7 @@ def columns_with_cells(table, row0, row1, column0, column1):  # type: ignore[no-
 
 @kernel
 def rows_with_cells(table, row0, row1, column0, column1):  # type: ignore[no-untyped-def]
-    """Return the range from the first to behind the last row with a cell of the set; there must be one."""
+    """Return the range from the first row with a cell of the set to one past the last; there must be one."""
     return columns_with_cells(table.T, column0, column1, row0, row1)
 
 
@@ -142,9 +141,9 @@ def contract(table, inverse_resolution, resolution, xl, xu, yl, yu):  # type: ig
 
 
 @kernel
-def _meet_rows(start, stop, table, origin, inverse_resolution, lower, upper, found):  # type: ignore[no-untyped-def]
+def _meet_rows(start, stop, cells, lower, upper, met):  # type: ignore[no-untyped-def]
     for i in range(start, stop):
-        found[i] = meets(table, origin, inverse_resolution, lower[i, 0], upper[i, 0], lower[i, 1], upper[i, 1])
+        met[i] = meets(cells, lower[i, 0], upper[i, 0], lower[i, 1], upper[i, 1])
 
 
 class CellIndex:
@@ -165,15 +164,10 @@ class CellIndex:
 
     Attributes
     ----------
-    table
-        int32, or uint16 if it is compact, of shape (rows + 1, columns + 1): ``table[i, j]`` cells of the set lie in rows below i and
-        columns below j.
-    bordered
-        The same table with `BORDER` more columns on either side, contiguous; `table` is a view of it.
-    origin, whole
-        Row and column of its first cell in the grid, and how many rows and columns the grid has.
-    resolution, inverse_resolution
-        The width of a cell, and 1 / resolution rounded to nearest.
+    cells
+        The set with its table, which counts in int32, or uint16 if it is compact.
+    whole
+        How many rows and columns the grid has.
 
     Raises
     ------
@@ -195,26 +189,21 @@ class CellIndex:
         check_resolution(resolution)
         rows, columns = mask.shape
         # Counted in place: for a large map a copy of the table would cost more memory than all else.
-        self.bordered: npt.NDArray[np.int32 | np.uint16] = np.empty(
-            (rows + 1, columns + 1 + 2 * BORDER), dtype=np.uint16 if compact else np.int32
-        )
-        _accumulate(mask, self.bordered)
-        self.table = self.bordered[:, BORDER : BORDER + columns + 1]
-        self.origin = origin
+        bordered: Counts = np.empty((rows + 1, columns + 1 + 2 * BORDER), dtype=np.uint16 if compact else np.int32)
+        _accumulate(mask, bordered)
+        self.cells = CellTable.of(bordered, origin, float(resolution))
         self.whole = whole or (origin[0] + rows, origin[1] + columns)
-        self.resolution = float(resolution)
-        self.inverse_resolution = 1.0 / self.resolution
 
     def __repr__(self) -> str:
-        rows, columns = (side - 1 for side in self.table.shape)
-        return f"<CellIndex of {columns} × {rows} cells of {self.resolution} m>"
+        rows, columns = (side - 1 for side in self.cells.table.shape)
+        return f"<CellIndex of {columns} × {rows} cells of {self.cells.resolution} m>"
 
     def meet(self, boxes: Boxes) -> npt.NDArray[np.bool_]:
         """Return which boxes (x, y) meet a cell of the set, shape (n,); never False where one does."""
         _check_plane(boxes)
-        found = np.empty(len(boxes), dtype=np.bool_)
-        threads.run(_meet_rows, len(boxes), self.table, self.origin, self.inverse_resolution, boxes.lower, boxes.upper, found)
-        return found
+        met = np.empty(len(boxes), dtype=np.bool_)
+        threads.run(_meet_rows, len(boxes), self.cells, boxes.lower, boxes.upper, met)
+        return met
 
 
 def _check_plane(boxes: Boxes) -> None:

@@ -121,12 +121,12 @@ class OccupancyGrid:
 
     def mask(self, *classes: int) -> MaskArray:
         """Return which cells are of one of these classes, bool of shape (rows, columns)."""
-        found = np.zeros(self.cells.shape, dtype=np.bool_)
+        marked = np.zeros(self.cells.shape, dtype=np.bool_)
         for each in classes:
             if each not in (FREE, OCCUPIED, UNKNOWN):
                 raise ValueError(f"{each} is no class of cells; give FREE, OCCUPIED or UNKNOWN")
-            found |= self.cells == each
-        return found
+            marked |= self.cells == each
+        return marked
 
     def to_map(self, x: npt.ArrayLike, y: npt.ArrayLike, theta: npt.ArrayLike = 0.0) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return poses of the grid frame as poses of the map frame, in plain double precision: for data and pictures, never for a bound."""
@@ -194,11 +194,11 @@ def check_usable(grid: OccupancyGrid, domain: tuple[int, ...] = (FREE,)) -> None
         If no cell is occupied, so that no beam could tell one pose from another, or none belongs to the domain.
     """
     counts = [np.count_nonzero(grid.cells == each) for each in range(len(CLASS_NAMES))]
-    found = ", ".join(f"{count} {name}" for count, name in zip(counts, CLASS_NAMES, strict=True))
+    held = ", ".join(f"{count} {name}" for count, name in zip(counts, CLASS_NAMES, strict=True))
     if not counts[OCCUPIED]:
         raise MapError(
-            f"the map has no occupied cell ({found}), so there is nothing to localize against; check the image, negate and occupied_thresh"
+            f"the map has no occupied cell ({held}), so there is nothing to localize against; check the image, negate and occupied_thresh"
         )
     if not any(counts[each] for each in domain):
         wanted = " or ".join(CLASS_NAMES[each] for each in domain)
-        raise MapError(f"the map has no {wanted} cell ({found}), so the robot can be nowhere; check the image, negate and free_thresh")
+        raise MapError(f"the map has no {wanted} cell ({held}), so the robot can be nowhere; check the image, negate and free_thresh")

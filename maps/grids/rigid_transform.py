@@ -19,7 +19,8 @@ from ial.pose import Pose
 
 
 @kernel
-def _from_frame(start, stop, x, y, yaw, lower, upper, new_lower, new_upper):  # type: ignore[no-untyped-def]
+def _from_frame(start, stop, frame, lower, upper, new_lower, new_upper):  # type: ignore[no-untyped-def]
+    x, y, yaw = frame
     cl, cu = cos(yaw, yaw)
     sl, su = sin(yaw, yaw)
     for i in range(start, stop):
@@ -36,7 +37,8 @@ def _from_frame(start, stop, x, y, yaw, lower, upper, new_lower, new_upper):  # 
 
 
 @kernel
-def _into_frame(start, stop, x, y, yaw, lower, upper, new_lower, new_upper):  # type: ignore[no-untyped-def]
+def _into_frame(start, stop, frame, lower, upper, new_lower, new_upper):  # type: ignore[no-untyped-def]
+    x, y, yaw = frame
     cl, cu = cos(-yaw, -yaw)
     sl, su = sin(-yaw, -yaw)
     for i in range(start, stop):
@@ -80,5 +82,6 @@ def _transformed(transform, boxes: Boxes, pose: Pose) -> Boxes:  # type: ignore[
         raise ValueError(f"boxes have {boxes.dimension} dimensions; boxes of poses have 3: x, y, θ")
     boxes = wrapped(boxes, 2)
     lower, upper = np.full(boxes.lower.shape, np.inf), np.full(boxes.lower.shape, -np.inf)
-    threads.run(transform, len(boxes), pose.x, pose.y, pose.theta, boxes.lower, boxes.upper, lower, upper)
+    frame = float(pose.x), float(pose.y), float(pose.theta)
+    threads.run(transform, len(boxes), frame, boxes.lower, boxes.upper, lower, upper)
     return Boxes(lower, upper)

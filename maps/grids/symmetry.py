@@ -11,7 +11,7 @@ from ial.pose import Pose
 
 @kernel
 def _extent(cells, kinds):  # type: ignore[no-untyped-def]
-    """Return the first and behind the last row and column with a cell of a kind other than 0."""
+    """Return the first and one past the last row and column with a cell of a kind other than 0."""
     rows, columns = cells.shape
     low_row, high_row, low_column, high_column = rows, -1, columns, -1
     for row in range(rows):
@@ -66,5 +66,5 @@ def symmetries(grid: OccupancyGrid, domain: tuple[int, ...]) -> tuple[Pose, ...]
     if extent[0] >= extent[1]:
         return ()
     x, y = (0.5 * (low + high) * grid.resolution for low, high in (extent[2:], extent[:2]))
-    found = [quarters for quarters in (1, 2, 3) if _alike(grid.cells, kinds, extent, quarters)]
-    return tuple(Pose(x, y) @ Pose(0.0, 0.0, 0.5 * math.pi * quarters) @ Pose(-x, -y) for quarters in found)
+    turns = [quarters for quarters in (1, 2, 3) if _alike(grid.cells, kinds, extent, quarters)]
+    return tuple(Pose(x, y) @ Pose(0.0, 0.0, 0.5 * math.pi * quarters) @ Pose(-x, -y) for quarters in turns)

@@ -20,10 +20,10 @@ def parse_geojson(text: str) -> tuple[Polygon, ...]:
     MapError
         If the text is not JSON, holds another geometry or none, or a ring is open: its last point must repeat the first one.
     """
-    found = tuple(_polygons(read_json(text), 0))
-    if not found:
+    polygons = tuple(_polygons(read_json(text), 0))
+    if not polygons:
         raise MapError("the GeoJSON holds no polygon; give a Polygon, a MultiPolygon or features with them")
-    return found
+    return polygons
 
 
 def _polygons(content: object, depth: int) -> Iterator[Polygon]:

@@ -124,11 +124,11 @@ def _check_contacts(rings: list[list[Point]], scale: int) -> None:
     """Raise unless the rings touch in single points only and lie in each other as they should."""
     touched: defaultdict[tuple[int, int], list[Point]] = defaultdict(list)
     for (ring, at, a, b), (other, to, c, d) in _near_pairs(rings):
-        found = contacts(a, b, c, d)
-        if found == ():
+        points = contacts(a, b, c, d)
+        if points == ():
             continue
         neighbours = ring == other and abs(at - to) in (1, len(rings[ring]) - 1)
-        if found is None or (ring == other and not neighbours):
+        if points is None or (ring == other and not neighbours):
             both = (
                 f"{_name(ring)} crosses or touches itself"
                 if ring == other
@@ -137,8 +137,8 @@ def _check_contacts(rings: list[list[Point]], scale: int) -> None:
             place = f"({float(Fraction(c[0], scale)):g}, {float(Fraction(c[1], scale)):g})"
             raise MapError(f"{both} at the edge that starts at {place}; correct the corners so that rings meet in single points at most")
         if ring != other:
-            touched[ring, at] += found
-            touched[other, to] += found
+            touched[ring, at] += points
+            touched[other, to] += points
     for index, hole in enumerate(rings[1:], 1):
         pieces = list(_pieces(hole, index, touched))
         for point in pieces if len(pieces) > len(hole) or any((index, at) in touched for at in range(len(hole))) else pieces[:1]:
@@ -157,8 +157,8 @@ def _check_place(doubled: Point, index: int, rings: list[list[Point]]) -> None:
     for other, ring in enumerate(rings):
         if other == index:
             continue
-        found = side(doubled, [(2 * x, 2 * y) for x, y in ring])
-        if other == 0 and found < 0:
+        position = side(doubled, [(2 * x, 2 * y) for x, y in ring])
+        if other == 0 and position < 0:
             raise MapError(f"hole {index} does not lie inside of the outer ring; move it in, or leave it out")
-        if other > 0 and found > 0:
+        if other > 0 and position > 0:
             raise MapError(f"hole {index} lies in hole {other}, which is no free space; leave it out")

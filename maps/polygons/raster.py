@@ -91,14 +91,14 @@ def cover(environment: Environment, cell: Fraction) -> Raster:
     ConfigError, MapError
         As `rasterize`.
     """
-    found = rasterize(environment, cell, "centre")
-    free = found.free.copy()
+    raster = rasterize(environment, cell, "centre")
+    free = raster.free.copy()
     for polygon in environment.polygons:
-        shifted = [tuple(((x - found.x) / cell, (y - found.y) / cell) for x, y in ring) for ring in polygon.rings]
+        shifted = [tuple(((x - raster.x) / cell, (y - raster.y) / cell) for x, y in ring) for ring in polygon.rings]
         scale = common_denominator(shifted)
         for row, first, stop in _crossed([edge for ring in shifted for edge in edges(scaled(ring, scale))], scale):
             free[row, first:stop] = True
-    return Raster(free, cell, found.x, found.y)
+    return Raster(free, cell, raster.x, raster.y)
 
 
 def _fill(polygon: Polygon, rule: Rule, free: MaskArray) -> None:
@@ -115,7 +115,7 @@ def _fill(polygon: Polygon, rule: Rule, free: MaskArray) -> None:
 
 
 def _centres(every: list[tuple[Point, Point]], scale: int, rows: int) -> Iterator[tuple[int, int, int]]:
-    """Yield runs (row, first column, column behind the last) of the cells whose centres lie in the closed polygon.
+    """Yield runs (row, first column, column past the last) of the cells whose centres lie in the closed polygon.
 
     The line through the centres of a row meets the polygon in the union of two sets of closed intervals: between the edges that reach
     above the line, and between those that reach below. Both count, so that points on the boundary are inside.

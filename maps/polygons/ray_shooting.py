@@ -148,16 +148,16 @@ def reaches(walls, lower, upper, back, table, links, margin):  # type: ignore[no
     Where `back` is true, the headings are those of arrivals at the piece, and the distance is how far back the robot can have come from.
     """
     count, corners = len(walls), len(table)
-    found = np.empty(count)
+    reach = np.empty(count)
     sides, fronts, spans, cuts = np.empty((corners, 2)), np.empty((corners, 2)), np.empty((corners, 2)), np.empty((corners, 2))
     for row in range(count):
         shift = _PI if back[row] else 0.0  # a rounding or two more, which `sort_out` and `_measure` have room for
         low, high, against_low, against_high = sort_out(walls[row], lower[row, 1] + shift, upper[row, 1] + shift, table)
-        found[row] = -1.0 if back[row] or against_low > against_high else 0.0
+        reach[row] = -1.0 if back[row] or against_low > against_high else 0.0
         if low <= high:
             _measure(walls[row], lower[row, 0], upper[row, 0], low, high, table, links, margin, sides, fronts, spans, cuts)
-            found[row] = max(_reach(walls[row], links, sides, spans), 0.0)
-    return found
+            reach[row] = max(_reach(walls[row], links, sides, spans), 0.0)
+    return reach
 
 
 @kernel

@@ -34,14 +34,14 @@ def parse_svg(text: str) -> tuple[Polygon, ...]:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError as error:
         raise MapError(f"the file is no SVG ({error}); correct it") from None
-    found: list[Polygon] = []
-    _collect(root, found)
-    if not found:
+    polygons: list[Polygon] = []
+    _collect(root, polygons)
+    if not polygons:
         raise MapError("the SVG holds no <polygon> or <path>; draw the free space with one")
-    return tuple(found)
+    return tuple(polygons)
 
 
-def _collect(element: ElementTree.Element, found: list[Polygon]) -> None:
+def _collect(element: ElementTree.Element, polygons: list[Polygon]) -> None:
     name = str(element.tag).rpartition("}")[2]
     if name in _IGNORED:
         return
@@ -49,14 +49,14 @@ def _collect(element: ElementTree.Element, found: list[Polygon]) -> None:
         raise MapError(f"the SVG has a transform at a <{name}>; apply it to the coordinates first")
     if name in _CONTAINERS:
         for child in element:
-            _collect(child, found)
+            _collect(child, polygons)
     elif name == "polygon":
         tokens = _TOKEN.findall(element.get("points", ""))
         if len(tokens) % 2:
-            raise MapError(f"the <polygon> {len(found) + 1} of the SVG has {len(tokens)} numbers; give pairs of x and y")
-        found.append(_polygon([_points(tokens, f"the <polygon> {len(found) + 1}")]))
+            raise MapError(f"the <polygon> {len(polygons) + 1} of the SVG has {len(tokens)} numbers; give pairs of x and y")
+        polygons.append(_polygon([_points(tokens, f"the <polygon> {len(polygons) + 1}")]))
     elif name == "path":
-        found.append(_polygon(_rings(_TOKEN.findall(element.get("d", "")), f"the <path> {len(found) + 1}")))
+        polygons.append(_polygon(_rings(_TOKEN.findall(element.get("d", "")), f"the <path> {len(polygons) + 1}")))
     else:
         raise MapError(f"the SVG holds a <{name}>; only <polygon> and <path> with straight lines are read")
 

@@ -53,6 +53,9 @@ class Walls:
     bend: IntArray
     origin: tuple[Fraction, Fraction]
 
+    def __repr__(self) -> str:
+        return f"<Walls: {len(self.x)}>"
+
     @classmethod
     def of(cls, environment: Environment) -> "Walls":
         """Return the walls of all polygons of an environment.

@@ -46,10 +46,10 @@ class _Reader:
         kind = self._next().upper()
         if kind not in ("POLYGON", "MULTIPOLYGON"):
             raise MapError(f"the WKT begins with {kind[:40] or 'nothing'!r}; give a POLYGON or a MULTIPOLYGON")
-        found = (self._polygon(),) if kind == "POLYGON" else tuple(self._listed(self._polygon))
+        polygons = (self._polygon(),) if kind == "POLYGON" else tuple(self._listed(self._polygon))
         if self._at < len(self._tokens):
             raise MapError(f"the WKT goes on with {self._tokens[self._at][:40]!r} after its {kind}; give one geometry")
-        return found
+        return polygons
 
     def _next(self, wanted: str = "") -> str:
         token = self._tokens[self._at] if self._at < len(self._tokens) else ""
@@ -60,10 +60,10 @@ class _Reader:
 
     def _listed(self, item: Callable[[], Item]) -> list[Item]:
         self._next("(")
-        found = [item()]
+        items = [item()]
         while self._next(",)") == ",":
-            found.append(item())
-        return found
+            items.append(item())
+        return items
 
     def _polygon(self) -> Polygon:
         outer, *holes = self._listed(self._ring)

@@ -53,7 +53,7 @@ class ExactWalls:
         with mpmath.workdps(DIGITS):
             x, y = self.point(wall, part)
             dx, dy = mpmath.cos(heading), mpmath.sin(heading)
-            found = []
+            hits = []
             for at, ((ax, ay), (bx, by)) in enumerate(zip(self.starts, self.ends, strict=True)):
                 ex, ey = bx - ax, by - ay
                 cut = dx * ey - dy * ex  # positive where the robot would leave the free space
@@ -64,6 +64,6 @@ class ExactWalls:
                     way = ((ax - x) * ey - (ay - y) * ex) / cut
                     there = ((ax - x) * dy - (ay - y) * dx) / cut
                     if way > 0 and -_SURE < there < 1 + _SURE:
-                        found.append((way, at, there, cut))
-            way, at, there, cut = min(found)
+                        hits.append((way, at, there, cut))
+            way, at, there, cut = min(hits)
             return (at, there, way) if cut > 0 and _SURE < there < 1 - _SURE else None

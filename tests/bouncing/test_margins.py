@@ -56,8 +56,8 @@ def test_headings_are_turned_back_outward(turns: int) -> None:
         stops = starts + random.choice([0.0, 1e-9, 0.1], 300)
         parts, none = np.zeros(300), np.zeros(300, dtype=np.int32)
         states = RaySet(none, np.stack([parts, starts], axis=1), np.stack([parts, stops], axis=1), none, none > 0, parts)
-        found = ray_grid._normal(states)
-        for start, stop, low, high in zip(starts, stops, found.lower[:, 1], found.upper[:, 1], strict=True):
+        turned = ray_grid._normal(states)
+        for start, stop, low, high in zip(starts, stops, turned.lower[:, 1], turned.upper[:, 1], strict=True):
             assert -1e-9 < low < 6.5
             back = 2 * mpmath.pi * round((start - low) / (2.0 * np.pi))
             assert 0 <= mpmath.mpf(start) - back - low < 1e-10

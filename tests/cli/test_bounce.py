@@ -35,12 +35,12 @@ def built(ial: Cli, hall: Path) -> Path:
 
 def stream_of(path: Path, start: int = 3, count: int = 60) -> str:
     """Observations that never lead to the trap."""
-    table, state, found = read_filter(path).table, 0, ""
+    table, state, letters = read_filter(path).table, 0, ""
     for at in range(count):
         options = [letter for letter in (0, 1) if table.step(state, letter) != table.trap]
         letter = options[(at + start) % len(options)]
-        found, state = found + str(letter), table.step(state, letter)
-    return found
+        letters, state = letters + str(letter), table.step(state, letter)
+    return letters
 
 
 def test_build_says_what_it_has_built(ial: Cli, hall: Path) -> None:
@@ -186,7 +186,7 @@ def test_simulate_writes_a_stream_that_run_reads(ial: Cli, hall: Path, built: Pa
     command = ("bounce", "simulate", hall, "--angle", 90, "--step", 1, "--seed", 4, "--steps", 30, "--out", "stream.txt")
     result = ial(*command, "--truth", "truth.csv")
     assert result.exit_code == 0
-    assert re.fullmatch(r"30 observations, \d+ of them bumps, in stream.txt\nthe poses behind them in truth.csv\n", result.stdout)
+    assert re.fullmatch(r"30 observations, \d+ of them bumps, in stream.txt\nthe poses after them in truth.csv\n", result.stdout)
     lines = Path("truth.csv").read_text().splitlines()
     assert lines[0] == "observation,x_m,y_m,heading_deg"
     stream = Path("stream.txt").read_text()

@@ -170,7 +170,7 @@ def lost(boxes: Boxes, points: FloatArray) -> FloatArray:
     return points[~((boxes.lower <= points) & (points <= boxes.upper)).all(axis=1)]
 
 
-def assert_same(found: Pairs, expected: Pairs) -> None:
+def assert_same(result: Pairs, expected: Pairs) -> None:
     """Fail if any bound differs by a bit; -0.0 and 0.0 are the same bound."""
-    for ours, theirs in zip(found, expected, strict=True):
+    for ours, theirs in zip(result, expected, strict=True):
         np.testing.assert_array_equal(ours, theirs)

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-Bounds = tuple[float, float]
+Pair = tuple[float, float]
 
-EMPTY: Bounds = (math.inf, -math.inf)
-ENTIRE: Bounds = (-math.inf, math.inf)
+EMPTY: Pair = (math.inf, -math.inf)
+ENTIRE: Pair = (-math.inf, math.inf)
 
 _COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.DOTALL)
 _CASE = re.compile(r"(?P<operation>[\w-]+)\s+(?P<inputs>[^=;{}]+?)\s*=\s*(?P<result>[^;{}]+?)\s*;")
@@ -66,12 +66,12 @@ def cases(folder: Path, *operations: str) -> Iterator[Case]:
     """Yield the bare cases of some operations, out of all files of a folder."""
     for file in sorted(folder.glob("*.itl")):
         text = _COMMENT.sub(lambda comment: "\n" * comment[0].count("\n"), file.read_text())
-        for found in _CASE.finditer(text):
-            if found["operation"] not in operations:
+        for match in _CASE.finditer(text):
+            if match["operation"] not in operations:
                 continue
-            source = f"{file.name}:{text.count(chr(10), 0, found.start()) + 1}: {found[0]}"
+            source = f"{file.name}:{text.count(chr(10), 0, match.start()) + 1}: {match[0]}"
             try:
-                yield Case(found["operation"], _values(found["inputs"]), _values(found["result"]), source)
+                yield Case(match["operation"], _values(match["inputs"]), _values(match["result"]), source)
             except _NotBareError:
                 continue
 

@@ -16,11 +16,11 @@ def test_no_angle_is_lost_and_all_come_out_in_the_form() -> None:
     random = np.random.default_rng(0)
     lower = random.uniform(-50.0, 50.0, (500, 2)) * random.choice([0.0, 1.0, 1e3], (500, 1))
     boxes = Boxes(lower, lower + random.choice([0.0, 0.1, 3.0, 6.2], (500, 2)))
-    found = wrapped(boxes, 1)
-    assert (found.lower[:, 0] == boxes.lower[:, 0]).all()
-    assert (found.upper[:, 0] == boxes.upper[:, 0]).all()
-    assert (np.abs(found.lower[:, 1]) <= PI_UPPER).all()
-    for low, high, before, after in zip(found.lower[:, 1], found.upper[:, 1], boxes.lower[:, 1], boxes.upper[:, 1], strict=True):
+    angles = wrapped(boxes, 1)
+    assert (angles.lower[:, 0] == boxes.lower[:, 0]).all()
+    assert (angles.upper[:, 0] == boxes.upper[:, 0]).all()
+    assert (np.abs(angles.lower[:, 1]) <= PI_UPPER).all()
+    for low, high, before, after in zip(angles.lower[:, 1], angles.upper[:, 1], boxes.lower[:, 1], boxes.upper[:, 1], strict=True):
         shift = mpmath.nint((mpmath.mpf(low) - before) / TURN) * TURN
         assert low <= before + shift
         assert after + shift <= high <= after + shift + 1e-10
@@ -32,12 +32,12 @@ def test_rows_stay_rows_and_empty_ones_are_empty_in_every_dimension() -> None:
         np.array([[1.0, 7.5], [0.0, 7.5], [1.0, 0.0], [-np.inf, -np.inf], [1.0, np.inf]]),
     )
     lower, upper = boxes.lower.copy(), boxes.upper.copy()
-    found = wrapped(boxes, 1)
-    assert found.empty.tolist() == [False, True, True, True, False]
-    assert (found.lower[found.empty] == np.inf).all()
-    assert (found.upper[found.empty] == -np.inf).all()
-    assert found.lower[0, 1] == pytest.approx(7.0 - 2.0 * math.pi)
-    assert (found.lower[4, 1], found.upper[4, 1]) == (-PI_UPPER, PI_UPPER)
+    angles = wrapped(boxes, 1)
+    assert angles.empty.tolist() == [False, True, True, True, False]
+    assert (angles.lower[angles.empty] == np.inf).all()
+    assert (angles.upper[angles.empty] == -np.inf).all()
+    assert angles.lower[0, 1] == pytest.approx(7.0 - 2.0 * math.pi)
+    assert (angles.lower[4, 1], angles.upper[4, 1]) == (-PI_UPPER, PI_UPPER)
     assert (boxes.lower == lower).all()
     assert (boxes.upper == upper).all()
 

@@ -37,10 +37,10 @@ def test_every_contractor_of_ial_is_checked_in_the_one_place() -> None:
     for name in MODULES:
         if name.startswith(("ial.contractors.", "ial.maps.")):
             importlib.import_module(name)
-    found = {kind for kind in kinds(Contractor) if kind.__module__.startswith("ial.")}
-    assert {"Annulus", "CellContractor", "Constraint", "Intersection", "Newton", "Problem"} <= {kind.__name__ for kind in found}
-    assert [kind.__name__ for kind in found if vars(kind).get("contract") not in (None, CheckedContractor.contract)] == []
-    assert [kind.__name__ for kind in found if not issubclass(kind, CheckedContractor)] == []
+    ours = {kind for kind in kinds(Contractor) if kind.__module__.startswith("ial.")}
+    assert {"Annulus", "CellContractor", "Constraint", "Intersection", "Newton", "Problem"} <= {kind.__name__ for kind in ours}
+    assert [kind.__name__ for kind in ours if vars(kind).get("contract") not in (None, CheckedContractor.contract)] == []
+    assert [kind.__name__ for kind in ours if not issubclass(kind, CheckedContractor)] == []
 
 
 def test_boxes_of_another_dimension_and_things_that_are_no_boxes_are_refused() -> None:

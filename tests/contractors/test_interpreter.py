@@ -12,7 +12,7 @@ from ial.contractors import rounding
 from ial.contractors.interpreter import INTERPRETED, InterpretedCallback, interpreted
 from ial.contractors.intervals import error_free
 from ial.contractors.kernels import kernel
-from ial.lidar.search.empty_rectangles import LANES, count_empty
+from ial.lidar.search.empty_rectangles import LANES, count_empty_rectangles
 from ial.lidar.search.rectangle_indices import OFFSET, rectangle_indices
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -42,7 +42,7 @@ def _indices(bounds, i, xl, yl, xu, yu, columns, rows):  # type: ignore[no-untyp
 
 @kernel
 def _count(table, above_right, above_left, below_right, below_left, counts, at):  # type: ignore[no-untyped-def]
-    count_empty(table, above_right, above_left, below_right, below_left, counts, at)
+    count_empty_rectangles(table, above_right, above_left, below_right, below_left, counts, at)
 
 
 @pytest.mark.compiled
@@ -87,7 +87,7 @@ def test_the_number_of_empty_rectangles(dtype: type) -> None:
         at = int(generator.integers(0, 40 - LANES))
         corners = [60 * above + right, 60 * above + left, 60 * below + right, 60 * below + left]
         _count(flat, *corners, counts, at)
-        count_empty.py_func(flat, *corners, twins, at)
+        count_empty_rectangles.py_func(flat, *corners, twins, at)
     assert counts.tolist() == twins.tolist()
     assert 0 < counts.sum() < 300 * LANES
 

@@ -52,8 +52,8 @@ def start(monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture) -> 
         result = ctypes.c_double()
         loop.ctypes(3.0, ctypes.byref(result))
         value = compiled(3.0)
-        found = sum(compiled.stats.cache_hits.values()) + loop.cache_hits
-        return value, result.value, found, [record.getMessage() for record in caplog.records]
+        hits = sum(compiled.stats.cache_hits.values()) + loop.cache_hits
+        return value, result.value, hits, [record.getMessage() for record in caplog.records]
 
     return start
 
@@ -74,8 +74,8 @@ def test_torn_files_are_compiled_again_with_one_line(start: Callable[[], Any], t
             at = generator.randrange(len(content))
             garbled = content[:at] + bytes(byte ^ 0xA5 for byte in content[at : at + attempt]) + content[at + attempt :]
             file.write_bytes(content[:at] if attempt % 2 == 0 else garbled)
-        value, written, found, lines = start()
-        assert (value, written, found) == (9.0, 9.0, 0)
+        value, written, hits, lines = start()
+        assert (value, written, hits) == (9.0, 9.0, 0)
         (line,) = lines
         assert line.startswith("compiling kernels again, for what was kept cannot be used: damaged: ")
     assert start() == (9.0, 9.0, 2, [])
@@ -103,8 +103,8 @@ def test_what_others_could_have_written_is_not_run(start: Callable[[], Any], tmp
     files = plant(tmp_path, mark)
     for file in files:
         spoil(file)
-    value, written, found, lines = start()
-    assert (value, written, found, len(lines), mark.exists()) == (9.0, 9.0, 0, 1, False)
+    value, written, hits, lines = start()
+    assert (value, written, hits, len(lines), mark.exists()) == (9.0, 9.0, 0, 1, False)
     assert start() == (9.0, 9.0, 2, [])  # what was there is replaced
     assert not any(file.is_symlink() for file in files)
 

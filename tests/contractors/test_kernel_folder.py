@@ -124,10 +124,10 @@ def test_it_is_where_the_variable_says(find: Find, tmp_path: Path, monkeypatch: 
     (tmp_path / "a link").symlink_to("linked to")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("IAL_CACHE_DIR", given.format(tmp_path))
-    found = find()
-    assert found == Path(os.path.realpath(given.format(tmp_path)), name())
-    assert found is not None
-    assert found.is_dir()
+    folder = find()
+    assert folder == Path(os.path.realpath(given.format(tmp_path)), name())
+    assert folder is not None
+    assert folder.is_dir()
 
 
 def test_neither_a_home_nor_an_entry_of_the_user_is_needed(find: Find, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -204,14 +204,14 @@ def test_only_the_files_that_were_not_used_for_longest_are_removed(tmp_path: Pat
 
 def test_a_folder_that_can_only_be_read_is_used(find: Find, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("IAL_CACHE_DIR", str(tmp_path / "chosen"))
-    found = find()
+    folder = find()
 
     def read_only(*_: object, **__: object) -> None:
         raise OSError(errno.EROFS, os.strerror(errno.EROFS))
 
-    assert found is not None
-    KernelFolder(found).write("one", b"content")
+    assert folder is not None
+    KernelFolder(folder).write("one", b"content")
     monkeypatch.setattr(Path, "touch", read_only)
     monkeypatch.setattr(Path, "mkdir", read_only)
     monkeypatch.setattr(os, "utime", read_only)
-    assert (find(), KernelFolder(found).read("one")) == (found, b"content")
+    assert (find(), KernelFolder(folder).read("one")) == (folder, b"content")

@@ -23,12 +23,12 @@ COMPILERS = ("numba", "llvmlite", "ial.contractors.kernels")
 
 @functools.cache
 def modules() -> dict[str, ast.Module]:
-    found = {}
+    trees = {}
     for folder, _, names in os.walk(PACKAGE, followlinks=True):
         for file in (Path(folder, name) for name in names if name.endswith(".py")):
             parts = file.relative_to(PACKAGE.parent).with_suffix("").parts
-            found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = ast.parse(file.read_bytes())
-    return found
+            trees[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = ast.parse(file.read_bytes())
+    return trees
 
 
 def imports(module: str) -> Iterator[str]:
@@ -52,14 +52,14 @@ def sources() -> KernelSources:
 
 
 def test_whatever_imports_a_compiler_is_covered(sources: KernelSources) -> None:
-    found = {module for module in modules() if compiles(module)}
+    compiling = {module for module in modules() if compiles(module)}
     assert {
         "ial.lidar.search.rectangle_indices",
         "ial.lidar.search.empty_rectangles",
         "ial.contractors.rounding",
         "ial.contractors.kernel_cache",
-    } <= found
-    assert found <= set(sources.files)
+    } <= compiling
+    assert compiling <= set(sources.files)
 
 
 @pytest.mark.slow

@@ -73,19 +73,19 @@ def test_no_extremum_is_missed_and_no_branch_far_from_0(size: float) -> None:
 
 
 @kernel
-def _of_the_platform(x, y, found):  # type: ignore[no-untyped-def]
+def _of_the_platform(x, y, values):  # type: ignore[no-untyped-def]
     """Fill in what the platform's library makes of a number from 0 to 1 and another one."""
-    found[0], found[1], found[2], found[3], found[4] = math.asin(x), math.acos(x), math.atan(y), math.atan2(x, y), abs(y) ** x
+    values[0], values[1], values[2], values[3], values[4] = math.asin(x), math.acos(x), math.atan(y), math.atan2(x, y), abs(y) ** x
 
 
 def test_the_platform_is_trusted_with_no_more_than_it_keeps() -> None:
     """`trigonometric` and `powers` take these to be right within one unit in the last place: here by what kernels call."""
-    random, found = np.random.default_rng(3), np.empty(5)
+    random, values = np.random.default_rng(3), np.empty(5)
     with mpmath.workdps(60):
         for _ in range(3000):
             x = float(random.choice([random.random(), 1.0 - 10.0 ** random.uniform(-16.0, 0.0), 10.0 ** random.uniform(-300.0, 0.0)]))
             y = float(random.choice([-1.0, 1.0]) * 10.0 ** random.choice([random.uniform(-2.0, 2.0), random.uniform(-300.0, 300.0)]))
-            _of_the_platform(x, y, found)
+            _of_the_platform(x, y, values)
             exact = (mpmath.asin(x), mpmath.acos(x), mpmath.atan(y), mpmath.atan2(x, y), mpmath.power(abs(mpmath.mpf(y)), mpmath.mpf(x)))
-            for value, right in zip(found.tolist(), exact, strict=True):
+            for value, right in zip(values.tolist(), exact, strict=True):
                 assert abs(right - value) < math.ulp(value)

@@ -26,7 +26,7 @@ def test_each_row_is_narrowed_by_itself_and_the_input_stays(contractor: RowContr
     boxes = random_boxes(40, contractor.dimension, seed=1)
     for bound in (boxes.lower, boxes.upper):
         bound.flags.writeable = False
-    found = contractor.contract(boxes)
-    assert is_well_formed(found, boxes)
-    assert not same(found, boxes)
-    assert same(found, Boxes.concatenate([contractor.contract(boxes[row]) for row in range(len(boxes))]))
+    narrowed = contractor.contract(boxes)
+    assert is_well_formed(narrowed, boxes)
+    assert not same(narrowed, boxes)
+    assert same(narrowed, Boxes.concatenate([contractor.contract(boxes[row]) for row in range(len(boxes))]))

@@ -44,8 +44,8 @@ def test_a_separator_of_a_family_is_one_set_on_both_sides() -> None:
         assert pave(none, room, 0.5).volume().upper == 0.0
     for either in (strips | half, relaxed([strips, half], 1)):
         assert pave(either, room, 0.5).volume() == pave(half, room, 0.5).volume()
-    found = minimal_outliers([strips, half], room, 0.5)
-    assert (found.q_low, found.q_high) == (1, 1)
+    outcome = minimal_outliers([strips, half], room, 0.5)
+    assert (outcome.q_low, outcome.q_high) == (1, 1)
 
 
 def test_operators_combine_separators() -> None:

@@ -57,8 +57,8 @@ def synthetic_readings(count: int = 12, mounting: Mounting | None = None) -> Ite
         sweep = None if index == count - 1 else OdometryPath.of([(stamp, at), *during, (end, somewhere(0.001, 0.002))])
         limits, place = (-2.0, 0.1, 0.05, 10.0, 1e-4), mounting or Mounting(0.2, -0.1, 0.3)
         yield Reading(index, stamp, at, LaserScan(stamp, ranges, *limits, mounting=place, sweep=sweep), messages)
-        behind = [(stamp + ms * 10**6, somewhere()) for ms in (50, 120, 300)]
-        messages = OdometryPath.of([*during, *behind])
+        later = [(stamp + ms * 10**6, somewhere()) for ms in (50, 120, 300)]
+        messages = OdometryPath.of([*during, *later])
 
 
 class Bag:

@@ -84,10 +84,10 @@ def test_a_jump_that_cannot_be_is_refused(jumps: list[tuple[int, int]], message:
 def test_the_localizer_is_lost_at_once_and_finds_the_new_place_in_the_same_step() -> None:
     plain = {step.index: estimate for step, estimate in localize(sample_recording(), Localizer(sample_grid()))}
     moved, _ = kidnap(sample_recording(), [Kidnapping(10, 30)])
-    found = [estimate for _, estimate in localize(moved, Localizer(sample_grid()))]
-    assert [estimate.status for estimate in found[:11]] == [plain[index].status for index in range(11)]
-    assert found[11].status == "lost"
+    estimates = [estimate for _, estimate in localize(moved, Localizer(sample_grid()))]
+    assert [estimate.status for estimate in estimates[:11]] == [plain[index].status for index in range(11)]
+    assert estimates[11].status == "lost"
     there = plain[30].pose
     assert there is not None
-    assert any(each.x[0] <= there.x <= each.x[1] and each.y[0] <= there.y <= each.y[1] for each in found[11].hypotheses)
-    assert found[-1].status == "localized"
+    assert any(each.x[0] <= there.x <= each.x[1] and each.y[0] <= there.y <= each.y[1] for each in estimates[11].hypotheses)
+    assert estimates[-1].status == "localized"

@@ -54,17 +54,17 @@ def corridor(*more: tuple[float, bytes]) -> list[bytes]:
 
 def motion(recording: Recording, **choice: Any) -> Motion:
     """Return the motion from the first scan to the last of those that are processed."""
-    found = Motion.identity()
+    whole = Motion.identity()
     for step in steps(recording, BOUNDS, **choice):
-        found = found if step.motion is None else found.compose(step.motion)
-    return found
+        whole = whole if step.motion is None else whole.compose(step.motion)
+    return whole
 
 
-def check(found: Motion) -> None:
-    assert found.contains(Pose(TRUTH))
-    assert found.contains(Pose(-TRUTH))
-    assert found.upper[0] == pytest.approx(ALLOWED, abs=1e-9)
-    assert found.upper[2] == 0.0
+def check(motion: Motion) -> None:
+    assert motion.contains(Pose(TRUTH))
+    assert motion.contains(Pose(-TRUTH))
+    assert motion.upper[0] == pytest.approx(ALLOWED, abs=1e-9)
+    assert motion.upper[2] == 0.0
 
 
 def test_json_lines() -> None:
@@ -175,9 +175,9 @@ def test_in_memory_written_and_kidnapped(tmp_path: Path) -> None:
     twice = [step.motion for step in steps(moved, BOUNDS)]
     assert len(twice) == 5
     for number in (1, 3):
-        found = twice[number]
-        assert found is not None
-        check(found)
+        odometry = twice[number]
+        assert odometry is not None
+        check(odometry)
 
 
 def test_a_stream_that_was_down() -> None:
@@ -268,18 +268,18 @@ def test_a_sweep_that_goes_back_behind_the_scan_of_another_lidar_has_every_messa
     assert sweep.numbers[:, 0].tolist() == [*RECORDED[30:1:-1], 0.1]
     # Where messages were forgotten nevertheless, nothing is known of the sweep.
     monkeypatch.setattr("ial.datasets.scan_stream._KEPT_NS", 0)
-    found = next(reading.scan for reading in stream.readings() if reading.scan.frame_id == "b")
-    assert (found.sweep, found.time_increment) == (None, 0.0)
+    second = next(reading.scan for reading in stream.readings() if reading.scan.frame_id == "b")
+    assert (second.sweep, second.time_increment) == (None, 0.0)
     assert any("no longer known" in fault for fault in stream.repaired)
     monkeypatch.setattr("ial.datasets.scan_stream._MOST_MESSAGES", 16)
     assert next(reading.scan.sweep for reading in swept_back().readings() if reading.scan.frame_id == "b") is None
 
 
-def numbers(found: list[Step]) -> list[Any]:
+def numbers(steps: list[Step]) -> list[Any]:
     """Return all that a localizer sees of the steps."""
     return [
         (step.index, step.stamp_ns, None if step.motion is None else (step.motion.lower.tolist(), step.motion.upper.tolist()))
-        for step in found
+        for step in steps
     ]
 
 

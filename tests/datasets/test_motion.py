@@ -89,18 +89,18 @@ def test_a_path_is_the_composition_of_its_pieces() -> None:
         for (start, first), (stop, second) in itertools.pairwise(path):
             piece = apart.enclose(Motion.between(first, second), 1e-9 * float(stop - start))
             expected = piece if start == stamps[0] else expected.compose(piece)
-        found = bounds.along(path)
-        assert found.lower[:2] == pytest.approx(expected.lower[:2] - once[:2], abs=1e-9)
-        assert found.upper[:2] == pytest.approx(expected.upper[:2] + once[:2], abs=1e-9)
-        assert found.upper[2] - found.lower[2] == pytest.approx(min(2.0 * math.pi, expected.upper[2] - expected.lower[2] + 0.8), abs=1e-9)
+        motion = bounds.along(path)
+        assert motion.lower[:2] == pytest.approx(expected.lower[:2] - once[:2], abs=1e-9)
+        assert motion.upper[:2] == pytest.approx(expected.upper[:2] + once[:2], abs=1e-9)
+        assert motion.upper[2] - motion.lower[2] == pytest.approx(min(2.0 * math.pi, expected.upper[2] - expected.lower[2] + 0.8), abs=1e-9)
 
 
 def test_odometry_of_which_nothing_is_known_gives_every_motion() -> None:
     path = OdometryPath.of([(0, Odometry(0.0, 0.0)), (1, Odometry(1.0, 2.0, 0.0, 1.0, math.inf, math.inf)), (2, Odometry(3.0, 0.0))])
-    found = MotionBounds().along(path)
-    assert np.isinf(found.lower[:2]).all()
-    assert np.isinf(found.upper[:2]).all()
-    assert found.upper[2] - found.lower[2] >= 2.0 * math.pi
+    motion = MotionBounds().along(path)
+    assert np.isinf(motion.lower[:2]).all()
+    assert np.isinf(motion.upper[:2]).all()
+    assert motion.upper[2] - motion.lower[2] >= 2.0 * math.pi
 
 
 @given(poses, poses, shares, shares)

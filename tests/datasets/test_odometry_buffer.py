@@ -51,28 +51,28 @@ def test_nothing_is_known_of_no_message() -> None:
 
 def test_between_messages_the_pose_is_linear_and_its_error_known() -> None:
     buffer = OdometryBuffer([(0, _at(1.0, 1.0, 3.0)), (100 * MS, _at(2.0, 1.0, -3.0))])
-    found = buffer.at(25 * MS)
-    assert found is not None
-    assert (found.x, found.y) == pytest.approx((1.25, 1.0))
-    assert found.pose.theta == pytest.approx(3.0 + 0.25 * (2.0 * math.pi - 6.0))
+    odometry = buffer.at(25 * MS)
+    assert odometry is not None
+    assert (odometry.x, odometry.y) == pytest.approx((1.25, 1.0))
+    assert odometry.pose.theta == pytest.approx(3.0 + 0.25 * (2.0 * math.pi - 6.0))
     turn = 2.0 * math.pi - 6.0
-    assert found.error_m == pytest.approx(0.75 + 0.16 * 1.0 * turn)  # an arc between the two leaves their box
-    assert found.error_rad == pytest.approx(0.75 * (2.0 * math.pi - 6.0))
+    assert odometry.error_m == pytest.approx(0.75 + 0.16 * 1.0 * turn)  # an arc between the two leaves their box
+    assert odometry.error_rad == pytest.approx(0.75 * (2.0 * math.pi - 6.0))
 
 
 @given(st.tuples(*[st.floats(-100.0, 100.0)] * 4), st.integers(1, 99), st.floats(0.0, 1.0), st.floats(0.0, 1.0))
 def test_the_error_covers_the_box_of_the_neighbours(corners: tuple[float, ...], share: int, u: float, v: float) -> None:
     ax, ay, bx, by = corners
-    found = OdometryBuffer([(0, _at(ax, ay)), (100, _at(bx, by))]).at(share)
-    assert found is not None
-    assert abs(ax + u * (bx - ax) - found.x) <= found.error_m
-    assert abs(ay + v * (by - ay) - found.y) <= found.error_m
+    odometry = OdometryBuffer([(0, _at(ax, ay)), (100, _at(bx, by))]).at(share)
+    assert odometry is not None
+    assert abs(ax + u * (bx - ax) - odometry.x) <= odometry.error_m
+    assert abs(ay + v * (by - ay) - odometry.y) <= odometry.error_m
 
 
 def test_errors_of_the_messages_add_up() -> None:
-    found = OdometryBuffer([(0, Odometry(0.0, 0.0, error_m=0.5, error_rad=0.2)), (100, Odometry(0.0, 0.0))]).at(50)
-    assert found is not None
-    assert (found.error_m, found.error_rad) == pytest.approx((0.5 + 0.16 * math.sqrt(0.5) * 0.2, 0.2))
+    odometry = OdometryBuffer([(0, Odometry(0.0, 0.0, error_m=0.5, error_rad=0.2)), (100, Odometry(0.0, 0.0))]).at(50)
+    assert odometry is not None
+    assert (odometry.error_m, odometry.error_rad) == pytest.approx((0.5 + 0.16 * math.sqrt(0.5) * 0.2, 0.2))
 
 
 def test_there_is_no_odometry_outside_or_in_a_gap() -> None:
@@ -92,24 +92,24 @@ def test_the_error_covers_an_arc_wherever_the_robot_is_on_it(radius: float, turn
         side = math.copysign(radius, turn)
         return Pose(side * (math.sin(to) - math.sin(heading)), side * (math.cos(heading) - math.cos(to)), to)
 
-    found = OdometryBuffer([(0, Odometry.of(on_the_arc(0.0))), (100, Odometry.of(on_the_arc(1.0)))]).at(share)
+    odometry = OdometryBuffer([(0, Odometry.of(on_the_arc(0.0))), (100, Odometry.of(on_the_arc(1.0)))]).at(share)
     at = on_the_arc(u)
-    assert found is not None
-    assert max(abs(at.x - found.x), abs(at.y - found.y)) <= found.error_m + 1e-12
-    assert abs(math.remainder(at.theta - found.pose.theta, 2.0 * math.pi)) <= found.error_rad + 1e-12
+    assert odometry is not None
+    assert max(abs(at.x - odometry.x), abs(at.y - odometry.y)) <= odometry.error_m + 1e-12
+    assert abs(math.remainder(at.theta - odometry.pose.theta, 2.0 * math.pi)) <= odometry.error_rad + 1e-12
 
 
 def test_the_error_of_an_interpolated_heading_is_rounded_outward() -> None:
     random = np.random.default_rng(3)
     for _ in range(200):
         pair = [(100 * each, Odometry(0.0, 0.0, *random.normal(size=2).tolist())) for each in range(2)]
-        found = OdometryBuffer(pair).at(int(random.integers(1, 100)))
-        assert found is not None
-        middle = 2 * mpmath.atan2(found.z, found.w)
+        odometry = OdometryBuffer(pair).at(int(random.integers(1, 100)))
+        assert odometry is not None
+        middle = 2 * mpmath.atan2(odometry.z, odometry.w)
         for _, end in pair:
             turned = 2 * mpmath.atan2(end.z, end.w) - middle
             turned -= 2 * mpmath.pi * mpmath.nint(turned / (2 * mpmath.pi))
-            assert abs(turned) <= found.error_rad
+            assert abs(turned) <= odometry.error_rad
 
 
 def test_messages_between_two_times_come_in_that_order() -> None:
@@ -145,10 +145,10 @@ def test_messages_that_were_lost_leave_nothing_known() -> None:
 
 @pytest.mark.parametrize("w", [1e-17, -1e-17, -3e-17, -6.2e-17, 0.0])
 def test_half_a_turn_may_go_either_way(w: float) -> None:
-    found = OdometryBuffer([(0, Odometry(0.0, 0.0)), (100, Odometry(0.0, 0.0, 1.0, w))]).at(50)
-    assert found is not None
+    odometry = OdometryBuffer([(0, Odometry(0.0, 0.0)), (100, Odometry(0.0, 0.0, 1.0, w))]).at(50)
+    assert odometry is not None
     turn = 2 * mpmath.atan2(1, w) - 2 * mpmath.pi * (w < 0)
     for share in (0.01, 0.5, 0.99):
-        off = share * turn - 2 * mpmath.atan2(found.z, found.w)
+        off = share * turn - 2 * mpmath.atan2(odometry.z, odometry.w)
         off -= 2 * mpmath.pi * mpmath.nint(off / (2 * mpmath.pi))
-        assert abs(off) <= found.error_rad
+        assert abs(off) <= odometry.error_rad

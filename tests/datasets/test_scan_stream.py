@@ -97,16 +97,16 @@ def test_the_odometry_of_a_scan_is_that_of_the_whole_buffer(events: list[tuple[b
             samples.append((stamp, Odometry.of(Pose(x, 0.0, 0.0))))
             lines.append((stamp, odometry(seconds, x)))
     buffer = OdometryBuffer(samples)
-    expected = [(stamp, found) for stamp in scans if (found := buffer.at(stamp)) is not None]
+    expected = [(stamp, streamed) for stamp in scans if (streamed := buffer.at(stamp)) is not None]
     # Scans may not overtake each other.
     ordered = sorted(lines, key=lambda line: line[0])
     late = iter([line for _, line in lines if b"scan" in line[:8]])
     stream = ScanStream([next(late) if b"scan" in line[:8] else line for _, line in ordered])
     try:
-        found = [(reading.stamp_ns, reading.odometry) for reading in stream.readings()]
+        streamed = [(reading.stamp_ns, reading.odometry) for reading in stream.readings()]
     except RecordingError:
-        found = []
-    assert found == expected
+        streamed = []
+    assert streamed == expected
 
 
 def test_what_a_line_may_leave_out() -> None:

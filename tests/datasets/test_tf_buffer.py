@@ -38,9 +38,9 @@ def test_paths_run_up_and_down_the_tree(edges: list[Transform], up: list[bool]) 
         names = (f"f{index}", f"f{index + 1}")
         buffer.add(*(names[::-1] if reverse else names), 0, edge.inverse() if reverse else edge)
         expected = expected @ _matrix(edge)
-    found = buffer.fixed("f0", "f3")
-    assert found is not None
-    assert _matrix(found) == pytest.approx(expected, abs=1e-8)
+    path = buffer.fixed("f0", "f3")
+    assert path is not None
+    assert _matrix(path) == pytest.approx(expected, abs=1e-8)
 
 
 def test_only_edges_that_never_change_are_fixed() -> None:

@@ -103,9 +103,9 @@ def test_an_empty_trajectory_has_no_pose() -> None:
 
 @given(st.floats(-math.pi, math.pi), st.floats(-math.pi, math.pi), st.floats(0.0, 1.0))
 def test_headings_turn_the_shorter_way(start: float, end: float, share: float) -> None:
-    found = interpolate(Pose(0.0, 0.0, start), Pose(0.0, 0.0, end), share).theta
+    theta = interpolate(Pose(0.0, 0.0, start), Pose(0.0, 0.0, end), share).theta
     turn = math.remainder(end - start, 2 * math.pi)
-    assert abs(math.remainder(found - start, 2 * math.pi)) <= abs(turn) + 1e-12
+    assert abs(math.remainder(theta - start, 2 * math.pi)) <= abs(turn) + 1e-12
 
 
 def test_stamps_must_increase_and_poses_be_finite() -> None:

@@ -32,9 +32,9 @@ SIZE = Number(above=0.0)
     ],
 )
 def test_a_value_is_kept_in_the_plain_types_of_python(kind: Kind, value: Any, plain: Any) -> None:
-    found = kind.checked(value)
-    assert found == plain
-    assert type(found) is type(plain)
+    kept = kind.checked(value)
+    assert kept == plain
+    assert type(kept) is type(plain)
 
 
 @pytest.mark.parametrize(
@@ -98,6 +98,6 @@ def test_a_bound_that_would_be_rounded_is_refused(value: Any) -> None:
     ],
 )
 def test_a_text_may_stand_for_a_value(kind: Kind, text: Any, meant: Any) -> None:
-    found = kind.meant(text)
-    assert found == meant
-    assert type(found) is type(meant)
+    kept = kind.meant(text)
+    assert kept == meant
+    assert type(kept) is type(meant)

@@ -46,7 +46,7 @@ class BoxIndex:
 
     def contains(self, poses: np.ndarray, margin: float = 0.0) -> np.ndarray:
         """Return which poses, shape (n, 3), keep this far off the faces of some box from inside; bool of shape (n,)."""
-        found = np.zeros(len(poses), dtype=np.bool_)
+        held = np.zeros(len(poses), dtype=np.bool_)
         names = _names(self._bins(poses))
         count = self._starts[names + 1] - self._starts[names]
         pose = np.repeat(np.arange(len(poses)), count)
@@ -54,8 +54,8 @@ class BoxIndex:
         at, low, high = poses[pose].T, self.lower[boxes].T + margin, self.upper[boxes].T - margin
         inside = (low[0] <= at[0]) & (at[0] <= high[0]) & (low[1] <= at[1]) & (at[1] <= high[1])
         inside &= (np.mod(at[2] - low[2], 2.0 * math.pi) <= high[2] - low[2]) | (high[2] - low[2] >= 2.0 * (math.pi - margin))
-        found[pose[inside]] = True
-        return found
+        held[pose[inside]] = True
+        return held
 
 
 def _names(bins: np.ndarray) -> np.ndarray:

@@ -97,19 +97,19 @@ def _answers(drive: Drive) -> Iterator[tuple[Moment, dict[str, Part]]]:
     localizer = Localizer(grid, config=drive.config, initial=drive.initial)
     for moment in drive.moments:
         index = BoxIndex(localizer.poses.boxes)
-        found = localizer.locate(moment.scan) if drive.mode == "static" else localizer.update(moment.motion, moment.scan)
-        wrong = _wrong_numbers(drive, moment, found)
-        circle = None if found.pose is None or found.radius_m is None else (found.pose, found.radius_m)
-        yield moment, {place: Part(index, found.poses, found.hypotheses, found.status, found.outliers_allowed, circle, wrong)}
+        estimate = localizer.locate(moment.scan) if drive.mode == "static" else localizer.update(moment.motion, moment.scan)
+        wrong = _wrong_numbers(drive, moment, estimate)
+        circle = None if estimate.pose is None or estimate.radius_m is None else (estimate.pose, estimate.radius_m)
+        yield moment, {place: Part(index, estimate.poses, estimate.hypotheses, estimate.status, estimate.outliers_allowed, circle, wrong)}
 
 
-def _wrong_numbers(drive: Drive, moment: Moment, found: Estimate) -> str:
+def _wrong_numbers(drive: Drive, moment: Moment, estimate: Estimate) -> str:
     """Say how the numbers of beams that are used and that may be bad differ from what docs/guarantee.md says of them, "" if they do not."""
     used, share = len(UsedBeams.of(moment.scan, drive.config)), drive.config.outliers
-    allowed = found.outliers_allowed if share == "auto" else share if isinstance(share, int) else math.floor(Fraction(str(share)) * used)
-    if (found.beams, found.outliers_allowed) == (used, allowed):
+    allowed = estimate.outliers_allowed if share == "auto" else share if isinstance(share, int) else math.floor(Fraction(str(share)) * used)
+    if (estimate.beams, estimate.outliers_allowed) == (used, allowed):
         return ""
-    return f"{drive.mode} {drive.seed}: {found.outliers_allowed} of {found.beams} beams may be bad, not {allowed} of {used}"
+    return f"{drive.mode} {drive.seed}: {estimate.outliers_allowed} of {estimate.beams} beams may be bad, not {allowed} of {used}"
 
 
 def _contract(drive: Drive, oracle: Oracle, tally: Tally, effort: int) -> None:

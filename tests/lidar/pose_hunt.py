@@ -135,15 +135,15 @@ class Hunt:
         motion = self.moment.motion
         if motion is None:
             return self._in_start(poses)
-        found = np.zeros(len(poses), dtype=np.bool_)
+        inside = np.zeros(len(poses), dtype=np.bool_)
         for _ in range(_TRIES):
             dx, dy, turn = self._motions(motion, len(poses)).T
             theta = poses[:, 2] - turn
             c, s = np.cos(theta), np.sin(theta)
-            found |= self.part.before.contains(
+            inside |= self.part.before.contains(
                 np.stack([poses[:, 0] - c * dx + s * dy, poses[:, 1] - s * dx - c * dy, theta], axis=1), MARGIN
             )
-        return found
+        return inside
 
     def _reached(self, count: int) -> Array:
         """Return poses to which a motion leads from the set before, or those in which the robot is said to start."""

@@ -47,15 +47,15 @@ def test_the_map_of_the_robot_is_never_excluded_and_the_others_soon_are(seed: in
     run = drive(maps[home], seed)
     atlas = Atlas(maps, LocalizerConfig(bounds=BOUNDS, outliers=outliers))  # type: ignore[arg-type]
     for step in steps(run.recording, MOTION):
-        found = atlas.update(step.motion, step.scan)
+        estimate = atlas.update(step.motion, step.scan)
         truth = run.truth.at(step.stamp_ns)
         assert truth is not None
-        assert home in found.possible
+        assert home in estimate.possible
         assert atlas.poses[home].contains(maps[home].pose_to_grid(truth))
-        assert (found.pose is None) == (found.map is None) == (found.status != "localized")
-    assert (found.status, found.map, found.possible) == ("localized", home, (home,))
-    assert found.pose is not None
-    assert math.hypot(found.pose.x - truth.x, found.pose.y - truth.y) < 0.5
+        assert (estimate.pose is None) == (estimate.map is None) == (estimate.status != "localized")
+    assert (estimate.status, estimate.map, estimate.possible) == ("localized", home, (home,))
+    assert estimate.pose is not None
+    assert math.hypot(estimate.pose.x - truth.x, estimate.pose.y - truth.y) < 0.5
 
 
 def test_one_map_gives_what_the_localizer_gives() -> None:
@@ -64,9 +64,9 @@ def test_one_map_gives_what_the_localizer_gives() -> None:
     config = LocalizerConfig(bounds=BOUNDS)
     atlas, localizer = Atlas({"only": grid}, config), Localizer(grid, config=config)
     for step in steps(run.recording, MOTION):
-        found, estimate = atlas.update(step.motion, step.scan), localizer.update(step.motion, step.scan)
-        assert found.hypotheses["only"] == estimate.hypotheses
-        assert (found.status, found.pose, found.outliers_allowed) == (estimate.status, estimate.pose, estimate.outliers_allowed)
+        answer, estimate = atlas.update(step.motion, step.scan), localizer.update(step.motion, step.scan)
+        assert answer.hypotheses["only"] == estimate.hypotheses
+        assert (answer.status, answer.pose, answer.outliers_allowed) == (estimate.status, estimate.pose, estimate.outliers_allowed)
 
 
 def test_a_robot_that_took_the_lift_is_found_on_the_other_floor() -> None:
@@ -78,14 +78,14 @@ def test_a_robot_that_took_the_lift_is_found_on_the_other_floor() -> None:
         for step in steps(run.recording, MOTION):
             in_lift = MOTION.enclose(Motion.between(Odometry.of(Pose()), Odometry.of(Pose())))
             motion = step.motion if step.motion is not None or name == "floor 0" else in_lift
-            found = atlas.update(motion, step.scan)
-            statuses.append(found.status)
+            estimate = atlas.update(motion, step.scan)
+            statuses.append(estimate.status)
             truth = run.truth.at(step.stamp_ns)
             assert truth is not None
             if name == "floor 0" or "lost" in statuses:
                 assert atlas.poses[name].contains(maps[name].pose_to_grid(truth))
     assert "lost" in statuses[12:15]
-    assert (found.map, found.possible) == ("floor 2", ("floor 2",))
+    assert (estimate.map, estimate.possible) == ("floor 2", ("floor 2",))
 
 
 def test_the_order_of_the_maps_does_not_matter() -> None:

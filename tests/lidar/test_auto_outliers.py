@@ -27,17 +27,17 @@ def test_the_number_is_the_smallest_that_leaves_a_pose_plus_the_margin() -> None
     for seed in range(SCENES):
         scene = random_scene(seed)
         scan = next(iter(scene.recording.readings())).scan
-        found = Localizer(scene.grid, config=auto(scene)).locate(scan)
-        if found.uninformative:
+        estimate = Localizer(scene.grid, config=auto(scene)).locate(scan)
+        if estimate.uninformative:
             continue
-        q = found.outliers_allowed
+        q = estimate.outliers_allowed
         same = Localizer(scene.grid, config=replace(scene.config, outliers=q)).locate(scan)
-        assert same.poses.boxes.lower.tolist() == found.poses.boxes.lower.tolist(), f"scene {seed}"
-        assert same.hypotheses == found.hypotheses
+        assert same.poses.boxes.lower.tolist() == estimate.poses.boxes.lower.tolist(), f"scene {seed}"
+        assert same.hypotheses == estimate.hypotheses
         if q > 2:
             less = Localizer(scene.grid, config=replace(scene.config, outliers=q - 3)).locate(scan)
             assert less.status == "blind", f"scene {seed} leaves poses with fewer bad beams"
-        assert max(each.spare_beams or 0 for each in found.hypotheses) == min(2, q)
+        assert max(each.spare_beams or 0 for each in estimate.hypotheses) == min(2, q)
 
 
 @pytest.mark.slow

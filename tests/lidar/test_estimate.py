@@ -22,7 +22,7 @@ def grid(origin: Pose = Pose()) -> OccupancyGrid:  # noqa: B008  (frozen)
 
 
 @pytest.mark.parametrize(
-    ("hypotheses", "rejected", "found", "status"),
+    ("hypotheses", "rejected", "confirmed", "status"),
     [
         ((SMALL,), False, True, "localized"),
         ((replace(SMALL, x=(1.0, 2.0 + 1e-9)),), False, True, "ambiguous"),
@@ -36,8 +36,8 @@ def grid(origin: Pose = Pose()) -> OccupancyGrid:  # noqa: B008  (frozen)
         ((), True, False, "blind"),
     ],
 )
-def test_the_status_is_as_defined(hypotheses: tuple[Hypothesis, ...], rejected: bool, found: bool, status: str) -> None:
-    assert judge(hypotheses, SIZE, rejected=rejected, found=found) == status
+def test_the_status_is_as_defined(hypotheses: tuple[Hypothesis, ...], rejected: bool, confirmed: bool, status: str) -> None:
+    assert judge(hypotheses, SIZE, rejected=rejected, confirmed=confirmed) == status
 
 
 def test_no_position_of_a_set_is_farther_than_the_radius() -> None:
@@ -53,5 +53,5 @@ def test_no_position_of_a_set_is_farther_than_the_radius() -> None:
             c, s = mpmath.cos(there.origin.theta), mpmath.sin(there.origin.theta)
             corners = [(mpmath.mpf(x), mpmath.mpf(y)) for x in (lower[0], upper[0]) for y in (lower[1], upper[1])]
             far = max(mpmath.hypot(origin.x + c * x - s * y - pose.x, origin.y + s * x + c * y - pose.y) for x, y in corners)
-        found = radius(PoseSet(Boxes(lower[None], upper[None])), pose, there)
-        assert far <= found <= far + 1e-13 * (2.0 * abs(origin.x) + 2.0 * abs(origin.y) + 60.0)
+        bound = radius(PoseSet(Boxes(lower[None], upper[None])), pose, there)
+        assert far <= bound <= far + 1e-13 * (2.0 * abs(origin.x) + 2.0 * abs(origin.y) + 60.0)

@@ -184,9 +184,9 @@ def test_a_scan_that_fits_nowhere_leaves_the_prediction() -> None:
 def test_a_first_scan_that_fits_nowhere_leaves_everything() -> None:
     localizer = Localizer(world(), config=CONFIG)
     assert localizer.update(None, unexplained()).status == "blind"
-    found = localizer.update(recorded()[1].motion, recorded()[1].scan)
-    assert found.status in ("localized", "ambiguous")
-    assert holds(found, walk()[1])
+    estimate = localizer.update(recorded()[1].motion, recorded()[1].scan)
+    assert estimate.status in ("localized", "ambiguous")
+    assert holds(estimate, walk()[1])
     assert localizer.locate(unexplained()).status == "blind"
 
 
@@ -250,14 +250,14 @@ def test_a_limit_on_boxes_gives_a_coarser_answer_that_is_marked_and_holds_the_tr
 
 
 def test_one_and_two_threads_give_the_same_bits() -> None:
-    found = []
+    answers = []
     for threads in (1, 2, 3):
         set_threads(threads)
         try:
-            found.append(bits(followed(Localizer(world(), config=CONFIG), recorded()[:5])))
+            answers.append(bits(followed(Localizer(world(), config=CONFIG), recorded()[:5])))
         finally:
             set_threads(None)
-    assert found[0] == found[1] == found[2]
+    assert answers[0] == answers[1] == answers[2]
 
 
 def test_several_localizers_in_several_threads_do_as_one_after_the_other() -> None:

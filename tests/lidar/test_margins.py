@@ -17,6 +17,7 @@ from ial.lidar.estimate import radius
 from ial.lidar.evidence.beams import Beams, select_beams
 from ial.lidar.evidence.directions import unit_vectors
 from ial.lidar.evidence.end_points import relative_bounds
+from ial.lidar.evidence.evidence import Evidence
 from ial.lidar.evidence.rays import Rays
 from ial.lidar.margins import MARGIN, MOST_BEAMS, MOST_CELLS, MOST_PARTS, REACH
 from ial.lidar.pose_set import PoseSet
@@ -81,7 +82,7 @@ def test_the_last_point_of_a_cell_of_the_lattice_is_not_lost(resolution: float, 
     """Cells of the lattice are a little wider than those of the table: on a long map they lie more and more beside them."""
     split, parts = divide(resolution, 2.0 * resolution / 64.0 if first > 65_536 else 2.0 * resolution)
     random, row = np.random.default_rng(first), Row(resolution, split, first)
-    lattice = Lattice(parts * row.occupied.resolution, 0.1, parts)
+    lattice = Lattice(parts * row.occupied.cells.resolution, 0.1, parts)
     half = math.pi / lattice.layers
     for _ in range(50):
         x = lattice.position_m * int((first + random.integers(2, WIDE - 8)) // parts)  # the line between two cells of the lattice
@@ -141,7 +142,7 @@ def test_errors_as_large_as_a_far_reading_take_nothing_off_a_region() -> None:
             along = float(random.uniform(0.2, 0.3)) * 1e6
             across = (x - along * unit[0, 0] - float(random.uniform(-500.0, 500.0))) / unit[0, 1]
             out = np.empty((1, 4))
-            relative_bounds(0.0, 0.0, np.array([[x, y]]), unit, np.array([[along, across]]), 0.0, 0.01, out)
+            relative_bounds(0.0, 0.0, Evidence(np.array([[x, y]]), unit, np.array([[along, across]]), 0.0, 0), 0.01, out)
             dx, dy = (mpmath.mpf(float(value)) for value in unit[0])
             for far, side in itertools.product((-along, along), (-across, across)):
                 px, py = (x + far * dx - side * dy) / mpmath.mpf(0.01), (y + far * dy + side * dx) / mpmath.mpf(0.01)

@@ -135,11 +135,11 @@ def test_an_atlas_cuts_all_its_maps_at_the_printed_number(seed: int) -> None:
     statuses = []
     for step in (calm[0], crowded[1], crowded[2], replace(elsewhere[0], motion=STILL), elsewhere[1]):
         before = atlas.poses
-        found = atlas.update(step.motion, step.scan)
-        statuses.append(found.status)
-        reading = scan_beams(step.scan, config).allowing(found.outliers_allowed)
+        estimate = atlas.update(step.motion, step.scan)
+        statuses.append(estimate.status)
+        reading = scan_beams(step.scan, config).allowing(estimate.outliers_allowed)
         for name, model in models.items():
-            start = model.universe() if step.motion is None or found.status == "lost" else model.predict(before[name], step.motion)
+            start = model.universe() if step.motion is None or estimate.status == "lost" else model.predict(before[name], step.motion)
             expected = model.contract(start, reading)
-            assert confirmed(atlas.poses[name]) == confirmed(expected), f"{name}, scan {len(statuses)}, {found.status}"
+            assert confirmed(atlas.poses[name]) == confirmed(expected), f"{name}, scan {len(statuses)}, {estimate.status}"
     assert statuses[3] == "lost"

@@ -32,10 +32,10 @@ def simulation() -> Simulation:
 
 
 def test_every_scan_is_localized_with_the_motion_since_the_last(simulation: Simulation) -> None:
-    found = list(localize(simulation.recording, Localizer(GRID, config=CONFIG)))
-    assert [step.index for step, _ in found] == list(range(8))
+    answers = list(localize(simulation.recording, Localizer(GRID, config=CONFIG)))
+    assert [step.index for step, _ in answers] == list(range(8))
     byhand = Localizer(GRID, config=CONFIG)
-    for (step, estimate), expected in zip(found, steps(simulation.recording, MOTION), strict=True):
+    for (step, estimate), expected in zip(answers, steps(simulation.recording, MOTION), strict=True):
         assert step.stamp_ns == estimate.stamp_ns == expected.stamp_ns
         assert estimate.poses.boxes.lower.tobytes() == byhand.update(expected.motion, expected.scan).poses.boxes.lower.tobytes()
         truth = simulation.truth.at(step.stamp_ns)
@@ -44,10 +44,10 @@ def test_every_scan_is_localized_with_the_motion_since_the_last(simulation: Simu
 
 
 def test_a_part_of_the_scans_is_chosen_like_a_slice(simulation: Simulation) -> None:
-    found = list(localize(simulation.recording, Localizer(GRID, config=CONFIG), start=1, stop=7, every=2))
-    assert [step.index for step, _ in found] == [1, 3, 5]
-    assert found[0][0].motion is None
-    for step, estimate in found:
+    answers = list(localize(simulation.recording, Localizer(GRID, config=CONFIG), start=1, stop=7, every=2))
+    assert [step.index for step, _ in answers] == [1, 3, 5]
+    assert answers[0][0].motion is None
+    for step, estimate in answers:
         truth = simulation.truth.at(step.stamp_ns)
         assert truth is not None
         assert estimate.poses.contains(truth)

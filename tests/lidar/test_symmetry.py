@@ -14,6 +14,7 @@ from ial.datasets.walk import random_walk
 from ial.lidar.configuration.config import Bounds, LocalizerConfig, Precision
 from ial.lidar.images import are_images
 from ial.lidar.localizer import Localizer
+from ial.lidar.pose_set import PoseSet
 from ial.lidar.run import localize
 from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
 from ial.maps.grids.symmetry import symmetries
@@ -45,10 +46,10 @@ def symmetries_of(grid: OccupancyGrid) -> tuple[Pose, ...]:
 @pytest.mark.parametrize("turns", [1, 2, 4])
 def test_quarter_turns_are_found_and_map_walls_onto_walls(turns: int) -> None:
     grid = hall(turns)
-    found = symmetries_of(grid)
-    assert len(found) == turns - 1
+    symmetries = symmetries_of(grid)
+    assert len(symmetries) == turns - 1
     rows, columns = np.nonzero(grid.mask(OCCUPIED))
-    for turn in found:
+    for turn in symmetries:
         for row, column in zip(rows[::97].tolist(), columns[::97].tolist(), strict=True):
             at = turn @ Pose((column + 0.5) * 0.05, (row + 0.5) * 0.05)
             assert grid.mask(OCCUPIED)[math.floor(at.y / 0.05), math.floor(at.x / 0.05)]
@@ -76,9 +77,9 @@ def test_the_rotations_are_those_of_the_turned_arrays() -> None:
         if len(rows):
             inner = cells[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
             expected = [0.5 * math.pi * turns for turns in (1, 2, 3) if np.array_equal(np.rot90(inner, turns), inner)]
-        found = symmetries_of(grid)
-        assert [each.theta % (2.0 * math.pi) for each in found] == pytest.approx(expected)
-        numbers.add(len(found))
+        symmetries = symmetries_of(grid)
+        assert [each.theta % (2.0 * math.pi) for each in symmetries] == pytest.approx(expected)
+        numbers.add(len(symmetries))
     assert numbers == {0, 1, 3}
 
 
@@ -190,7 +191,7 @@ def at(pose: Pose, half: float = 0.1) -> list[tuple[float, float]]:
     ],
 )
 def test_images_are_what_meets_one_to_one(boxes: Boxes, symmetries: tuple[Pose, ...], images: bool) -> None:
-    assert are_images(boxes, symmetries, 16.0) is images
+    assert are_images(PoseSet(boxes), symmetries, 16.0) is images
 
 
 def test_whatever_a_scan_leaves_of_a_symmetric_answer_the_images_of_the_truth_are_in_it() -> None:

@@ -138,10 +138,12 @@ def test_a_contractor_keeps_the_truth_and_the_turn(turns: int) -> None:
 
 
 def test_neighbours_of_different_turns_touch_and_their_hull_has_the_form() -> None:
-    found = cluster(Boxes.of([(0, 1), (0, 1), (-3.4, -3.2)], [(0, 1), (0, 1), (2.5 - 4.0 * math.pi, 2.9 - 4.0 * math.pi)]), circular=(2,))
-    assert len(found) == 1
-    assert_form(found.hulls)
-    assert (found.hulls.lower[0, 2], found.hulls.upper[0, 2]) == pytest.approx((2.5, 2.0 * math.pi - 3.2))
+    clusters = cluster(
+        Boxes.of([(0, 1), (0, 1), (-3.4, -3.2)], [(0, 1), (0, 1), (2.5 - 4.0 * math.pi, 2.9 - 4.0 * math.pi)]), circular=(2,)
+    )
+    assert len(clusters) == 1
+    assert_form(clusters.hulls)
+    assert (clusters.hulls.lower[0, 2], clusters.hulls.upper[0, 2]) == pytest.approx((2.5, 2.0 * math.pi - 3.2))
     apart = cluster(Boxes.of([(0, 1), (0, 1), (-3.4, -3.2)], [(0, 1), (0, 1), (2.5, 2.8)]), circular=(2,))
     assert len(apart) == 2
 
@@ -163,7 +165,7 @@ def test_empty_rows_stay_empty_rows_and_are_in_no_cell() -> None:
     tables = LidarModel(room(), CONFIG).sections[0, 0]
     everything = replace(beams(), outliers=40)
     before = EMPTY_ROWS.lower.copy(), EMPTY_ROWS.upper.copy()
-    for found in (
+    for rows in (
         room().boxes_to_grid(EMPTY_ROWS),
         room().boxes_to_map(EMPTY_ROWS),
         move(EMPTY_ROWS, STILL),
@@ -171,9 +173,9 @@ def test_empty_rows_stay_empty_rows_and_are_in_no_cell() -> None:
         ScanContractor(everything, tables.occupied).contract(EMPTY_ROWS),
         PoseContractor(everything, tables.occupied, tables.domain).contract(EMPTY_ROWS),
     ):
-        assert found.empty.tolist() == [True, True, False]
-        assert (found.lower[:2] == np.inf).all()
-        assert (found.upper[:2] == -np.inf).all()
+        assert rows.empty.tolist() == [True, True, False]
+        assert (rows.lower[:2] == np.inf).all()
+        assert (rows.upper[:2] == -np.inf).all()
     assert np.array_equal(EMPTY_ROWS.lower, before[0])
     assert np.array_equal(EMPTY_ROWS.upper, before[1])
     lattice = Lattice(0.2, 0.1)

@@ -116,17 +116,17 @@ def drives(aside_m: float) -> Iterator[tuple[bool, Estimate, bool]]:
 
 @pytest.mark.slow
 def test_a_prediction_beside_the_truth_leaves_hardly_anything() -> None:
-    found = list(drives(0.6))
-    missed = [estimate.vanishing for held, estimate, _ in found if not held and estimate.status == "localized"]
+    answers = list(drives(0.6))
+    missed = [estimate.vanishing for held, estimate, _ in answers if not held and estimate.status == "localized"]
     assert len(missed) > 4
     assert sum(missed) > 0.6 * len(missed)
-    assert [estimate.vanishing for _, estimate, _ in found] == [everywhere for _, _, everywhere in found]
+    assert [estimate.vanishing for _, estimate, _ in answers] == [everywhere for _, _, everywhere in answers]
 
 
 def test_answers_seldom_vanish_while_all_bounds_hold() -> None:
-    found = list(drives(0.0))
-    assert all(held for held, _, _ in found)
-    assert sum(estimate.vanishing for _, estimate, _ in found) < 0.3 * len(found)
+    answers = list(drives(0.0))
+    assert all(held for held, _, _ in answers)
+    assert sum(estimate.vanishing for _, estimate, _ in answers) < 0.3 * len(answers)
 
 
 def test_the_recorded_scan_that_asked_for_this(data_folder: Path) -> None:

@@ -45,8 +45,8 @@ class Coloured(ContractingModel[States, int, int]):
     def contract(self, states: States, reading: int) -> States:
         return frozenset(place for place in states if COLOURS[place] == reading)
 
-    def unite(self, found: States, predicted: States) -> States:
-        return found | predicted
+    def unite(self, confirmed: States, predicted: States) -> States:
+        return confirmed | predicted
 
     def empty(self, states: States) -> bool:
         return not states
@@ -64,8 +64,8 @@ class Blind(Model[States, int, None]):
     def step(self, states: States, motion: int, reading: None) -> States:
         return self.predict(states, motion)
 
-    def unite(self, found: States, predicted: States) -> States:
-        return found | predicted
+    def unite(self, confirmed: States, predicted: States) -> States:
+        return confirmed | predicted
 
     def empty(self, states: States) -> bool:
         return not states
@@ -183,8 +183,8 @@ def test_a_filter_holds_exactly_the_states_that_all_readings_allow(name: str, re
             after = world.step(states, motion, reading)
             rejected = not after
             if rejected and recovery != "absorb":
-                found = world.anew(reading)
-                after = found if recovery == "restart" and found else found | world.predict(states, motion)
+                fresh = world.anew(reading)
+                after = fresh if recovery == "restart" and fresh else fresh | world.predict(states, motion)
             states = after
             assert (running.update(motion, reading) is not None) == rejected
             assert world.listed(running.states) == states

@@ -22,8 +22,8 @@ class Corridor(ContractingModel[States, int, set[int]]):
         self.calls.append("contract")
         return states & reading
 
-    def unite(self, found: States, predicted: States) -> States:
-        return found | predicted
+    def unite(self, confirmed: States, predicted: States) -> States:
+        return confirmed | predicted
 
     def empty(self, states: States) -> bool:
         return not states

@@ -36,16 +36,16 @@ def test_the_score_of_a_pose_is_that_of_the_definition() -> None:
     for _ in range(50):
         x, y = random.uniform(-3.0, 34.0, 2)
         ends = random.uniform(-20.0, 20.0, (2, 40))
-        found = score(field.table, np.float32(x), np.float32(y), ends.astype(np.float32), np.empty(40, dtype=np.int32))
-        assert found == pytest.approx(plain_score(grid, model, x, y, ends), abs=1e-5)
+        ours = score(field.table, np.float32(x), np.float32(y), ends.astype(np.float32), np.empty(40, dtype=np.int32))
+        assert ours == pytest.approx(plain_score(grid, model, x, y, ends), abs=1e-5)
 
 
 def test_end_points_far_outside_count_as_the_largest_distance() -> None:
     grid, model = small_map(np.random.default_rng(2)), BeamModel()
     table, room = LikelihoodField(grid, model).table, np.empty(1, dtype=np.int32)
     for end in ((1e6, 1.0), (-1e6, 1.0), (1.0, 1e6), (1.0, -1e6)):
-        found = score(table, np.float32(5.0), np.float32(5.0), np.array([end], dtype=np.float32).T, room)
-        assert found == pytest.approx(float(model.term(2.0)), abs=1e-6)
+        ours = score(table, np.float32(5.0), np.float32(5.0), np.array([end], dtype=np.float32).T, room)
+        assert ours == pytest.approx(float(model.term(2.0)), abs=1e-6)
 
 
 @pytest.mark.parametrize("name", ["z_hit", "z_rand", "sigma_hit", "laser_likelihood_max_dist", "laser_max_range", "max_beams"])

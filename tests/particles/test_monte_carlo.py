@@ -57,15 +57,15 @@ def test_a_robot_is_found_on_the_whole_map() -> None:
 
 def test_a_seed_gives_the_same_bits_on_any_number_of_threads() -> None:
     grid, simulation = run(1, scans=6)
-    found = []
+    runs = []
     for threads in (1, 2):
         set_threads(threads)
         try:
-            found.append([follow(MonteCarlo(grid, MonteCarloConfig(), seed), simulation.recording) for seed in (1, 2)])
+            runs.append([follow(MonteCarlo(grid, MonteCarloConfig(), seed), simulation.recording) for seed in (1, 2)])
         finally:
             set_threads(None)
-    assert found[0] == found[1]
-    assert found[0][0] != found[0][1]
+    assert runs[0] == runs[1]
+    assert runs[0][0] != runs[0][1]
 
 
 def test_a_scan_without_a_usable_beam_moves_the_particles_and_no_more() -> None:

@@ -62,8 +62,8 @@ def wall(gap: slice) -> Obstacles:
 @pytest.mark.parametrize("turn", [0.0, math.pi])
 def test_a_gap_in_a_wall_is_passed_from_both_sides(x: float, length: float, aside: float, is_open: bool, turn: float) -> None:
     y, angle = (0.5, 0.5 * math.pi) if not turn else (3.6, -0.5 * math.pi)
-    found = open_strips(wall(slice(20, 21)), np.array([[x, y]]), np.array([angle]), np.array([length]), aside)
-    assert found.tolist() == [is_open]
+    answers = open_strips(wall(slice(20, 21)), np.array([[x, y]]), np.array([angle]), np.array([length]), aside)
+    assert answers.tolist() == [is_open]
 
 
 def test_a_ray_that_only_touches_is_not_certainly_free() -> None:

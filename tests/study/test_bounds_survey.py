@@ -77,11 +77,11 @@ def test_bounds_are_fitted_over_every_message(every: int) -> None:
             if step.motion is not None
         ]
         assert {step.messages for step in chosen} == {6 * every}
-        found = fitted(first, chosen, 0.99)
-        held = [np.mean([step.held(bounds) for step in chosen], axis=0) for bounds in (found, first)]
+        fitted_bounds = fitted(first, chosen, 0.99)
+        held = [np.mean([step.held(bounds) for step in chosen], axis=0) for bounds in (fitted_bounds, first)]
         assert (held[0] >= 0.99).all()
         assert (start > 1.0) == (held[1] >= 0.99).all()
-        ratios = [sum(astuple(bound)) / sum(astuple(other)) for bound, other in zip(_both(found), _both(wheels), strict=True)]
+        ratios = [sum(astuple(bound)) / sum(astuple(other)) for bound, other in zip(_both(fitted_bounds), _both(wheels), strict=True)]
         assert max(ratios) < 1.3  # two digits are rounded up
 
 
@@ -141,6 +141,6 @@ def test_the_localizers_own_poses_stand_in_for_a_reference() -> None:
     config = LocalizerConfig()
     pairs = list(own_poses(run.recording, grid, config))
     assert [step.index for step, _ in pairs] == [step.index for step in steps(run.recording, config.bounds.motion)]
-    found = [(pose, path[step.index]) for step, pose in pairs if pose is not None]
-    assert len(found) > 6
-    assert all(math.hypot(pose.x - true.x, pose.y - true.y) < 0.5 for pose, true in found)
+    poses = [(pose, path[step.index]) for step, pose in pairs if pose is not None]
+    assert len(poses) > 6
+    assert all(math.hypot(pose.x - true.x, pose.y - true.y) < 0.5 for pose, true in poses)

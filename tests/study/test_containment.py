@@ -55,9 +55,18 @@ def answer(index: int, *, contained: bool = True, localized: bool = False) -> Es
     at = PATH[index]
     x = at.x if contained else at.x + 1.0
     poses = PoseSet(Boxes.of([(x - 0.1, x + 0.1), (at.y - 0.1, at.y + 0.1), (at.theta - 0.1, at.theta + 0.1)]))
-    found = find_hypotheses(poses, GRID)
+    hypotheses = find_hypotheses(poses, GRID)
     return Estimate(
-        stamp(index), "localized" if localized else "ambiguous", found, found[0].centre if localized else None, poses, 41, 2, False, "", 0.0
+        stamp(index),
+        "localized" if localized else "ambiguous",
+        hypotheses,
+        hypotheses[0].centre if localized else None,
+        poses,
+        41,
+        2,
+        False,
+        "",
+        0.0,
     )
 
 
@@ -77,10 +86,10 @@ def broken(**counts: int) -> dict[str, int]:
 
 
 def test_where_all_holds_all_counts() -> None:
-    found = summary(*[(step(i), answer(i, localized=i > 0)) for i in range(4)])
-    assert found["median_position_error_m"] == pytest.approx(0.0, abs=1e-9)
-    del found["median_position_error_m"]
-    assert found == {
+    shares = summary(*[(step(i), answer(i, localized=i > 0)) for i in range(4)])
+    assert shares["median_position_error_m"] == pytest.approx(0.0, abs=1e-9)
+    del shares["median_position_error_m"]
+    assert shares == {
         "scans_with_reference": 4,
         "contained": 1.0,
         "contained_hull": 1.0,
@@ -94,57 +103,57 @@ def test_where_all_holds_all_counts() -> None:
 
 
 def test_nothing_added_gives_no_shares() -> None:
-    found = summary()
-    assert found["scans_with_reference"] == found["scans_where_assumptions_hold"] == 0
+    shares = summary()
+    assert shares["scans_with_reference"] == shares["scans_where_assumptions_hold"] == 0
     for share in ("contained", "contained_hull", "assumptions_hold", "contained_when_assumptions_hold", "median_position_error_m"):
-        assert found[share] is None
+        assert shares[share] is None
 
 
 def test_no_scan_at_which_the_assumptions_hold_gives_no_share() -> None:
-    found = summary((step(0, scan=scan(PATH[0], spoiled=10)), answer(0)))
-    assert found["contained"] == 1.0
-    assert found["contained_when_assumptions_hold"] is None
-    assert found["assumptions_hold"] == 0.0
+    shares = summary((step(0, scan=scan(PATH[0], spoiled=10)), answer(0)))
+    assert shares["contained"] == 1.0
+    assert shares["contained_when_assumptions_hold"] is None
+    assert shares["assumptions_hold"] == 0.0
 
 
 @pytest.mark.parametrize(("spoiled", "holds"), [(0, 2), (2, 2), (3, 1), (20, 1)])
 def test_more_bad_beams_than_allowed_break_the_beams(spoiled: int, holds: int) -> None:
-    found = summary((step(0), answer(0)), (step(1, scan=scan(PATH[1], spoiled)), answer(1, contained=False)))
-    assert found["scans_where_assumptions_hold"] == holds
-    assert found["broken"] == broken(beams=2 - holds)
-    assert found["contained_when_assumptions_hold"] == 1.0 / holds
-    assert found["contained"] == found["contained_hull"] == 0.5
+    shares = summary((step(0), answer(0)), (step(1, scan=scan(PATH[1], spoiled)), answer(1, contained=False)))
+    assert shares["scans_where_assumptions_hold"] == holds
+    assert shares["broken"] == broken(beams=2 - holds)
+    assert shares["contained_when_assumptions_hold"] == 1.0 / holds
+    assert shares["contained"] == shares["contained_hull"] == 0.5
 
 
 def test_a_motion_outside_its_interval_breaks_the_motion() -> None:
     false = around(Pose(0.3, 0.0, 0.0))
-    found = summary((step(0), answer(0)), (step(1, motion=false), answer(1)), (step(2), answer(2)))
-    assert found["broken"] == broken(motion=1)
-    assert found["scans_where_assumptions_hold"] == 2  # the reference was contained all the same, so the next scan holds
+    shares = summary((step(0), answer(0)), (step(1, motion=false), answer(1)), (step(2), answer(2)))
+    assert shares["broken"] == broken(motion=1)
+    assert shares["scans_where_assumptions_hold"] == 2  # the reference was contained all the same, so the next scan holds
     assert summary((step(0), answer(0)), (step(1, motion=false), answer(1)), static=True)["broken"] == broken()
 
 
 def test_a_reference_in_a_wall_breaks_the_domain() -> None:
     wall = Pose(0.05, 1.5, 0.2)
     known = Trajectory.of([(stamp(0), ORIGIN @ wall)])
-    found = summary((step(0, scan=LaserScan(0, np.full(5, np.inf), 0.0, 0.1)), answer(0)), known=known)
-    assert found["broken"] == broken(domain=1)
-    assert found["misses"] == [{"index": 0, "status": "ambiguous", "broken": ["domain"]}]
+    shares = summary((step(0, scan=LaserScan(0, np.full(5, np.inf), 0.0, 0.1)), answer(0)), known=known)
+    assert shares["broken"] == broken(domain=1)
+    assert shares["misses"] == [{"index": 0, "status": "ambiguous", "broken": ["domain"]}]
 
 
 def test_one_scan_may_break_several() -> None:
-    found = summary((step(0), answer(0)), (step(1, scan=scan(PATH[1], 10), motion=around(Pose(0.3, 0.0, 0.0))), answer(1)))
-    assert found["broken"] == broken(beams=1, motion=1)
+    shares = summary((step(0), answer(0)), (step(1, scan=scan(PATH[1], 10), motion=around(Pose(0.3, 0.0, 0.0))), answer(1)))
+    assert shares["broken"] == broken(beams=1, motion=1)
 
 
 def test_after_a_miss_nothing_holds_until_the_reference_is_contained_again() -> None:
     pairs = [(step(i), answer(i, contained=i not in (1, 2))) for i in range(5)]
-    found = summary(*pairs)
-    assert found["broken"] == broken(lost_before=2)
-    assert found["scans_where_assumptions_hold"] == 3
-    assert found["contained"] == 0.6
-    assert found["contained_when_assumptions_hold"] == pytest.approx(2 / 3)
-    assert found["misses"] == [
+    shares = summary(*pairs)
+    assert shares["broken"] == broken(lost_before=2)
+    assert shares["scans_where_assumptions_hold"] == 3
+    assert shares["contained"] == 0.6
+    assert shares["contained_when_assumptions_hold"] == pytest.approx(2 / 3)
+    assert shares["misses"] == [
         {"index": 1, "status": "ambiguous", "broken": []},  # nothing to blame: the guarantee is broken
         {"index": 2, "status": "ambiguous", "broken": ["lost_before"]},
     ]
@@ -153,9 +162,9 @@ def test_after_a_miss_nothing_holds_until_the_reference_is_contained_again() -> 
 
 def test_a_missing_reference_breaks_the_chain_once() -> None:
     pairs = [(step(i), answer(i)) for i in range(4)]
-    found = summary(*pairs, known=truth(without=(1,)))
-    assert found["scans_with_reference"] == 3
-    assert found["broken"] == broken(lost_before=1)
+    shares = summary(*pairs, known=truth(without=(1,)))
+    assert shares["scans_with_reference"] == 3
+    assert shares["broken"] == broken(lost_before=1)
     first = summary(*pairs, known=truth(without=(0,)))
     assert first["broken"] == broken(lost_before=1)
     assert summary(*pairs, known=truth(without=(1,)), static=True)["scans_where_assumptions_hold"] == 3
@@ -166,9 +175,9 @@ def test_a_start_without_the_reference_is_an_assumption_that_does_not_hold() -> 
         there = ORIGIN @ at
         region = Boxes.of([(there.x - 0.1, there.x + 0.1), (there.y - 0.1, there.y + 0.1), (there.theta - 0.1, there.theta + 0.1)])
         localizer = Localizer(GRID, config=LOCALIZER.config, initial=region)
-        found = summary((step(0), answer(0, contained=holds == 1)), localizer=localizer)
-        assert found["scans_where_assumptions_hold"] == holds
-        assert found["broken"] == broken(lost_before=1 - holds)
+        shares = summary((step(0), answer(0, contained=holds == 1)), localizer=localizer)
+        assert shares["scans_where_assumptions_hold"] == holds
+        assert shares["broken"] == broken(lost_before=1 - holds)
 
 
 def test_a_start_that_the_search_has_lost_is_no_broken_assumption(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -176,8 +185,8 @@ def test_a_start_that_the_search_has_lost_is_no_broken_assumption(monkeypatch: p
     region = Boxes.of([(there.x - 0.1, there.x + 0.1), (there.y - 0.1, there.y + 0.1), (there.theta - 7.0, there.theta - 6.0)])
     localizer = Localizer(GRID, config=LOCALIZER.config, initial=region)
     monkeypatch.setattr(localizer, "_start", PoseSet(Boxes.none(3)))
-    found = summary((step(0), answer(0, contained=False)), localizer=localizer)
-    assert (found["scans_where_assumptions_hold"], found["contained_when_assumptions_hold"]) == (1, 0.0)
+    shares = summary((step(0), answer(0, contained=False)), localizer=localizer)
+    assert (shares["scans_where_assumptions_hold"], shares["contained_when_assumptions_hold"]) == (1, 0.0)
 
 
 def test_a_reference_of_the_laser_is_taken_back_to_the_base() -> None:
@@ -199,5 +208,5 @@ def test_the_hull_may_hold_what_no_box_holds() -> None:
         for dx, dy in ((-0.15, 0.05), (-0.05, 0.02), (0.05, -0.08))
     ]
     poses = PoseSet(Boxes.of(*parts))
-    found = summary((step(0), replace(answer(0), poses=poses, hypotheses=find_hypotheses(poses, GRID))))
-    assert (found["contained"], found["contained_hull"]) == (0.0, 1.0)
+    shares = summary((step(0), replace(answer(0), poses=poses, hypotheses=find_hypotheses(poses, GRID))))
+    assert (shares["contained"], shares["contained_hull"]) == (0.0, 1.0)

@@ -35,9 +35,9 @@ MOTION = MotionBounds(ErrorBound(0.05), ErrorBound(0.05))
 @pytest.mark.parametrize("name", TWIN)
 def test_the_twin_imports_plain_records_and_itself(name: str) -> None:
     tree = ast.parse((ROOT / "ial" / "study" / f"{name}.py").read_text())
-    found = {str(node.module) for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
-    found |= {alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names}
-    assert {each for each in found if each.split(".")[0] == "ial"} - {f"ial.study.{each}" for each in TWIN} <= RECORDS
+    names = {str(node.module) for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+    names |= {alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names}
+    assert {each for each in names if each.split(".")[0] == "ial"} - {f"ial.study.{each}" for each in TWIN} <= RECORDS
 
 
 def right(beams: Beams) -> Beams:

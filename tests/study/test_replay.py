@@ -55,7 +55,7 @@ def test_waiting_for_the_scans_before_counts(
     monkeypatch.setattr(module, "time", clock)
     waits: list[float] = []
     monkeypatch.setattr(module.Latencies, "add", lambda self, seconds: waits.append(seconds))
-    found = replay(recording(), clock, speed)  # type: ignore[arg-type]
-    assert (found.scans, found.recorded_s, found.late, found.limited) == (4, 3.0, late, 1)
+    report = replay(recording(), clock, speed)  # type: ignore[arg-type]
+    assert (report.scans, report.recorded_s, report.late, report.limited) == (4, 3.0, late, 1)
     assert waits == pytest.approx(waits_s)
     assert clock.now == pytest.approx(100.0 + takes_s)

@@ -43,6 +43,9 @@ class KnowledgeCycles:
     def __len__(self) -> int:
         return len(self.anchors)
 
+    def __repr__(self) -> str:
+        return f"<KnowledgeCycles: {len(self)}, of {self.lengths.sum()} states>"
+
 
 @dataclass(frozen=True, eq=False)
 class Automaton:
@@ -53,7 +56,7 @@ class Automaton:
     graph
         What it was made from.
     successors
-        The state behind each observation, int32 of shape (states, 2), −1 where no vertex of the set can make it.
+        The state after each observation, int32 of shape (states, 2), −1 where no vertex of the set can make it.
     sizes
         How many vertices the set of each state has, int32 of shape (states,).
     uncertainty
@@ -85,7 +88,7 @@ class Automaton:
 
     @cached_property
     def _steps(self) -> npt.NDArray[np.int64]:
-        """How many steps each state stands behind the anchor of its cycle."""
+        """How many steps each state stands past the anchor of its cycle."""
         return walk_cycles(self.successors, self.cycles.anchors)[1]
 
     def cells(self, state: int) -> npt.NDArray[np.int32]:
@@ -99,8 +102,8 @@ class Automaton:
         cycle = int(self.colours[state]) - 2
         if cycle < 0:
             raise FilterError(f"state {state} is on no knowledge cycle, so its set is not kept; use `BouncingModel` for all sets")
-        found = self.cycles.members[self.cycles.starts[cycle] : self.cycles.starts[cycle + 1]]
+        places = self.cycles.members[self.cycles.starts[cycle] : self.cycles.starts[cycle + 1]]
         for _ in range(int(self._steps[state])):
-            arcs = self.graph.arcs[found]
-            found = np.where(arcs < 0, ~arcs, arcs)
-        return np.sort(found)
+            arcs = self.graph.arcs[places]
+            places = np.where(arcs < 0, ~arcs, arcs)
+        return np.sort(places)

@@ -9,12 +9,12 @@ from ial.contractors.kernels import kernel
 def walk_cycles(
     successors: npt.NDArray[np.int32], anchors: npt.NDArray[np.int32], trap: int = -1
 ) -> tuple[npt.NDArray[np.int32], npt.NDArray[np.int64]]:
-    """Return the number of the knowledge cycle of each state, and how many steps the state stands behind the anchor of that cycle.
+    """Return the number of the knowledge cycle of each state, and how many steps the state stands past the anchor of that cycle.
 
     Parameters
     ----------
     successors
-        The state behind each observation, int32 of shape (states, 2). On a cycle one of the two is `trap`.
+        The state after each observation, int32 of shape (states, 2). On a cycle one of the two is `trap`.
     anchors
         One state of each cycle, int32 of shape (cycles,).
     trap

@@ -22,8 +22,8 @@ def determinize(graph: LabelledGraph, most_states: int = MOST_STATES, verify: bo
     most_states
         The number of states at which to give up, at most 2³⁰.
     verify
-        Also compare the sets behind all arcs, element by element. Sets are otherwise recognized by 128 bits and their size, which confuses
-        two of them with a probability below 10⁻²⁰ for as many states as fit into a memory.
+        Also compare the sets that all arcs lead to, element by element. Sets are otherwise recognized by 128 bits and their size, which
+        confuses two of them with a probability below 10⁻²⁰ for as many states as fit into a memory.
 
     Raises
     ------
@@ -50,8 +50,8 @@ def determinize(graph: LabelledGraph, most_states: int = MOST_STATES, verify: bo
     depth = depth_of(successors, colours)
     lengths = np.bincount(colours, minlength=cycles + 2)[2:]
     starts = starts[: cycles + 1].copy()
-    found = KnowledgeCycles(anchors, lengths, uncertainty[anchors], starts, members[: starts[-1]].copy())
-    automaton = Automaton(graph, successors, sizes, uncertainty, environments, colours, found, int(depth))
+    knowledge = KnowledgeCycles(anchors, lengths, uncertainty[anchors], starts, members[: starts[-1]].copy())
+    automaton = Automaton(graph, successors, sizes, uncertainty, environments, colours, knowledge, int(depth))
     if verify:
         compare_sets(automaton)
     return automaton

@@ -70,7 +70,7 @@ def _refine(successors, initial, blocks):  # type: ignore[no-untyped-def]
                     if marked[home] == 0:
                         touched[met] = home
                         met += 1
-                    border = first[home] + marked[home]  # swap the state behind the last marked one
+                    border = first[home] + marked[home]  # swap the state next to the last marked one
                     other, place = elements[border], places[state]
                     elements[border], elements[place] = state, other
                     places[state], places[other] = border, place

@@ -18,7 +18,7 @@ class SetAutomaton:
     Parameters
     ----------
     successors
-        The state behind each observation, int32 of shape (states, 2), −1 where there is none.
+        The state after each observation, int32 of shape (states, 2), −1 where there is none.
     sizes
         How many vertices the robot can be in, int64 of shape (states,).
     """
@@ -48,19 +48,19 @@ def determinize_sets(graph: SetGraph, most_states: int = 100_000) -> SetAutomato
     while waiting:
         held, row = waiting.popleft(), []
         for label in (0, 1):
-            found = np.sort(model.step(held, None, label))
-            if not len(found):
+            reached = np.sort(model.step(held, None, label))
+            if not len(reached):
                 row.append(-1)
                 continue
-            number = numbers.setdefault(found.tobytes(), len(numbers))
+            number = numbers.setdefault(reached.tobytes(), len(numbers))
             if number == len(sizes):
                 if number >= most_states:
                     raise FilterError(
                         f"the automaton has more than {most_states} states; use larger cells, smaller bounds of errors, or the filter "
                         "of sets, which needs no automaton"
                     )
-                sizes.append(len(found))
-                waiting.append(found)
+                sizes.append(len(reached))
+                waiting.append(reached)
             row.append(number)
         successors.append(row)
     return SetAutomaton(np.array(successors, dtype=np.int32), np.array(sizes, dtype=np.int64))

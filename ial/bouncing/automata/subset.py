@@ -1,6 +1,6 @@
 """The subset construction on arrays: the information states that streams of bumps lead to, breadth first.
 
-The set behind a word w is C^|w|(P_w), P_w being the starts from which w is observed. Words of one length have disjoint P_w, so the sets of
+The set after a word w is C^|w|(P_w), P_w being the starts from which w is observed. Words of one length have disjoint P_w, so the sets of
 one level of the search have no more elements together than there are vertices: two buffers hold them, and nothing else keeps a set. A set
 is recognized by its size and two sums of 64 bits, over its elements, of well mixed numbers.
 
@@ -88,7 +88,7 @@ def _larger_table(sums, sizes, states, slots):  # type: ignore[no-untyped-def]
 
 @kernel
 def _collect(candidates, count, stamps, stamp, out, at, weights, parts):  # type: ignore[no-untyped-def]
-    """Write the candidates without repeats to `out`; return (behind the last, sums, weight, bits of the environments met)."""
+    """Write the candidates without repeats to `out`; return (the end, sums, weight, bits of the environments met)."""
     first = second = met = np.uint64(0)
     weight = np.int64(0)
     for i in range(count):
@@ -224,9 +224,9 @@ def depth_of(successors, colours):  # type: ignore[no-untyped-def]
                 if successors[state, label] >= 0:
                     waiting[successors[state, label]] += 1
     depths, ready = np.zeros(count, dtype=np.int32), np.empty(count, dtype=np.int32)
-    ready[0], found, deepest = 0, 1, 0
+    ready[0], queued, deepest = 0, 1, 0
     for at in range(count):
-        if at == found:
+        if at == queued:
             break
         state = ready[at]
         if colours[state] > 1:
@@ -238,6 +238,6 @@ def depth_of(successors, colours):  # type: ignore[no-untyped-def]
                 depths[target] = max(depths[target], depths[state] + 1)
                 waiting[target] -= 1
                 if waiting[target] == 0:
-                    ready[found] = target
-                    found += 1
+                    ready[queued] = target
+                    queued += 1
     return deepest

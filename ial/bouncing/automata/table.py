@@ -12,12 +12,12 @@ from ial.errors import StreamError
 
 @dataclass(frozen=True, eq=False)
 class FilterTable:
-    """States 0 (nothing is known yet) … states − 1, and behind them the trap, where the observations fit no place at all.
+    """States 0 (nothing is known yet) … states − 1, and after them the trap, where the observations fit no place at all.
 
     Parameters
     ----------
     successors
-        The state behind each observation, int32 of shape (states + 1, 2).
+        The state after each observation, int32 of shape (states + 1, 2).
     colours
         1 until the robot is localized, then 2 + number of its knowledge cycle; the trap has the last colour. int32 of shape (states + 1,).
     uncertainty
@@ -66,11 +66,11 @@ class FilterTable:
         return FilterTable(arcs, self.colours, self.uncertainty, self.environments)
 
     def step(self, state: int, observation: int) -> int:
-        """Return the state behind an observation, 1 for a bump and 0 for none: one look-up."""
+        """Return the state after an observation, 1 for a bump and 0 for none: one look-up."""
         return int(self.successors[state, observation])
 
     def run(self, stream: Iterable[int], state: int = 0) -> list[int]:
-        """Return the states behind each observation of a stream."""
+        """Return the states after each observation of a stream."""
         states = []
         for observation in stream:
             state = self.step(state, observation)
@@ -78,7 +78,7 @@ class FilterTable:
         return states
 
     def run_closed(self, stream: Iterable[int]) -> list[int]:
-        """Return the states behind each observation of a robot that is known to be in the environment.
+        """Return the states after each observation of a robot that is known to be in the environment.
 
         Raises
         ------

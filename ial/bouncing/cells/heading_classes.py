@@ -24,7 +24,7 @@ class HeadingClasses:
     offsets
         The cells that a step moves by, int32 of shape (classes, 2).
     turned
-        The class behind a bump, int32 of shape (classes,).
+        The class after a bump, int32 of shape (classes,).
     sizes
         How many headings each class has, int32 of shape (classes,).
     """

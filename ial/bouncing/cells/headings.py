@@ -95,12 +95,12 @@ class Headings:
     @cached_property
     def offsets(self) -> npt.NDArray[np.int32]:
         """The (columns, rows) of each step, int32 of shape (headings, 2); step·(cos, sin) rounded, with halves away from zero."""
-        found = np.empty((self.count, 2), dtype=np.int32)
+        moves = np.empty((self.count, 2), dtype=np.int32)
         for heading in range(self.count):
             part = Fraction(heading, self.count)
-            found[heading] = rounded_cosine(part, self.step), rounded_cosine(part - Fraction(1, 4), self.step)
-        found.setflags(write=False)
-        return found
+            moves[heading] = rounded_cosine(part, self.step), rounded_cosine(part - Fraction(1, 4), self.step)
+        moves.setflags(write=False)
+        return moves
 
 
 @lru_cache(maxsize=2**12)  # headings that differ by their bouncing angle only have the same offsets
@@ -121,8 +121,8 @@ def rounded_cosine(turn: Fraction, length: Fraction) -> int:
     if exact is not None:
         return _rounded(exact * length)
     for lower, upper in cosine_bounds(turn):  # ends, since an irrational number is no half
-        if (found := _rounded(lower * length)) == _rounded(upper * length):
-            return found
+        if (rounded := _rounded(lower * length)) == _rounded(upper * length):
+            return rounded
     raise AssertionError("bounds end only when the number is decided")
 
 

@@ -73,9 +73,9 @@ class BouncingModel(Model[Vertices, None, int]):
         out = np.empty(len(states), dtype=np.int32)
         return out[: _advance(self.graph.arcs, states, bool(reading), either, self._seen, out)].copy()
 
-    def unite(self, found: Vertices, predicted: Vertices) -> Vertices:
+    def unite(self, confirmed: Vertices, predicted: Vertices) -> Vertices:
         """Return the vertices of either set."""
-        return np.union1d(found, predicted)
+        return np.union1d(confirmed, predicted)
 
     def empty(self, states: Vertices) -> bool:
         """Return whether no vertex is left: the trap, if the filter absorbs."""

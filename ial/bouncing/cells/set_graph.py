@@ -67,7 +67,7 @@ def rows_of(begins: npt.NDArray[np.int64], ends: npt.NDArray[np.int64], count: i
     if len(begins) > MOST_ARCS:
         raise FilterError(f"the graph would have {len(begins)} arcs; use larger cells, fewer headings or smaller bounds of errors")
     keys = np.unique(begins * count + ends)
-    found, to = np.divmod(keys, count)
+    row, to = np.divmod(keys, count)
     starts = np.zeros(count + 1, dtype=np.int64)
-    np.cumsum(np.bincount(found, minlength=count), out=starts[1:])
+    np.cumsum(np.bincount(row, minlength=count), out=starts[1:])
     return starts, to.astype(np.int32)

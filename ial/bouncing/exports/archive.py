@@ -17,7 +17,7 @@ def plain_archive(exported: ExportedFilter) -> bytes:
     ============================  ==============  =======================================================================
     array                         shape           holds
     ============================  ==============  =======================================================================
-    ``next``                      (N, 2) int32    the state behind no bump and behind a bump; 0 is the start, N − 1 the trap
+    ``next``                      (N, 2) int32    the state after no bump and after a bump; 0 is the start, N − 1 the trap
     ``colour``                    (N,) int32      1 until localized, then 2 + number of the knowledge cycle; the trap is last
     ``size``                      (N,) int64      in how many configurations the robot can be
     ``environments``              (N,) uint64     in which environments: bit i stands for environment i

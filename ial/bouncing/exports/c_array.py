@@ -43,7 +43,7 @@ class CArray:
         return self.values.size * self.width // 8
 
     def declaration(self, qualifier: str) -> str:
-        """Return its text; the qualifier stands behind ``const``."""
+        """Return its text; the qualifier follows ``const``."""
         suffix = {32: "u", 64: "ull"}.get(self.width, "")
         if self.values.ndim == 2:
             items = ["{" + ",".join(f"{each}{suffix}" for each in row) + "}" for row in self.values.tolist()]

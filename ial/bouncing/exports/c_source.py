@@ -18,7 +18,7 @@ typedef uint{state}_t {p}_state;
 """
 
 _FUNCTIONS = """\
-/* The state behind an observation: bump is not 0 if the step ended in one. */
+/* The state after an observation: bump is not 0 if the step ended in one. */
 static inline {p}_state {p}_step({p}_state state, int bump) {{ return {p}_next[state][bump != 0]; }}
 
 static inline uint{colour}_t {p}_colour({p}_state state) {{ return {p}_colours[state]; }}

@@ -49,7 +49,7 @@ class CTables:
             return CArray(f"{prefix}_{name}", values, comment)
 
         stepping = (
-            array("next", table.successors, "the state behind each state without a bump and with one; the trap is the last state"),
+            array("next", table.successors, "the successor of each state without a bump and with one; the trap is the last state"),
             array("colours", table.colours, "1 until the robot is localized, then 2 + number of the knowledge cycle; last is the trap"),
         )
         telling = [

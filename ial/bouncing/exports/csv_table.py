@@ -4,7 +4,7 @@ from ial.bouncing.automata.table import FilterTable
 
 
 def csv_text(table: FilterTable) -> str:
-    """Return one line for each state: its number, the state behind each observation, its colour, and in how many configurations a robot is.
+    """Return one line for each state: its number, the state after each observation, its colour, and in how many configurations a robot is.
 
     The last line is the trap, of size 0.
     """

@@ -11,7 +11,7 @@ from ial.bouncing.filters.setting import Setting
 
 @dataclass(frozen=True, eq=False)
 class ExportedFilter:
-    """A table with the places behind it.
+    """A table with the places of its states.
 
     Parameters
     ----------

@@ -43,14 +43,14 @@ class StatePlaces:
         kept = made.places
         cycles, steps = walk_cycles(made.table.successors, kept.anchors, made.table.trap)
         rows: dict[int, npt.NDArray[np.int32]] = {}
-        found = kept.members[:0]
+        vertices = kept.members[:0]
         for state in np.lexsort((steps, cycles))[np.count_nonzero(cycles < 0) :].tolist():
             number = cycles[state]
-            found = kept.members[kept.starts[number] : kept.starts[number + 1]] if steps[state] == 0 else kept.following[found]
-            rows[state] = np.sort(found)
+            vertices = kept.members[kept.starts[number] : kept.starts[number + 1]] if steps[state] == 0 else kept.following[vertices]
+            rows[state] = np.sort(vertices)
         counts = np.zeros(len(made.table), dtype=np.int64)
-        for state, found in rows.items():
-            counts[state] = len(found)
+        for state, vertices in rows.items():
+            counts[state] = len(vertices)
         headings = made.setting.headings
         classes = HeadingClasses.merged(headings) if made.setting.merged else HeadingClasses.single(headings)
         return cls(

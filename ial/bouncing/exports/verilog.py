@@ -22,7 +22,7 @@ module {prefix}_filter #(
     output wire [{colour}:0] colour,  // 1 until the robot is localized, then 2 + number of the knowledge cycle
     output wire trapped  // the observations fit no place{trap_says}
 );
-    // Each word: the state behind a bump, the state behind a step without one, the colour. The word is read together with the
+    // Each word: the state after a bump, the state after a step without one, the colour. The word is read together with the
     // state it belongs to, so that the memory can be a block RAM.
     reg [{word}:0] memory [0:{trap}];
     reg [{word}:0] now;
@@ -48,7 +48,7 @@ class WordLayout:
     Parameters
     ----------
     state_bits
-        The width of a state; a word has two, that behind a bump in the highest bits.
+        The width of a state; a word has two, that after a bump in the highest bits.
     colour_bits
         The width of a colour, in the lowest bits.
     """

@@ -43,7 +43,7 @@ class BounceFilter:
     table
         The states and their successors.
     places
-        The sets behind the states of knowledge cycles.
+        The sets of configurations that the states of knowledge cycles stand for.
     setting
         What the filter was built for.
     """
@@ -59,7 +59,7 @@ class BounceFilter:
 
     @cached_property
     def _steps(self) -> npt.NDArray[np.int64]:
-        """How many steps each state stands behind the anchor of its cycle."""
+        """How many steps each state stands past the anchor of its cycle."""
         return walk_cycles(self.table.successors, self.places.anchors, self.table.trap)[1]
 
     @cached_property
@@ -87,10 +87,10 @@ class BounceFilter:
         if not self.table.is_localized(state):
             return []
         setting, places = self.setting, self.places
-        found = []
+        answer = []
         for vertex in places.at(int(self.table.colours[state]) - 2, int(self._steps[state])).tolist():
             environment = int(places.environment[vertex])
             x, y = setting.centre(environment, int(places.row[vertex]), int(places.column[vertex]))
             members = self._classes.members(int(places.heading_class[vertex]))
-            found.append(Place(setting.names[environment], x, y, tuple(setting.headings.angle_deg(each) for each in members)))
-        return found
+            answer.append(Place(setting.names[environment], x, y, tuple(setting.headings.angle_deg(each) for each in members)))
+        return answer

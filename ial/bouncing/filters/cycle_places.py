@@ -60,8 +60,8 @@ class CyclePlaces:
         return cls(environment, row, column, heading_class, following, cycles.anchors, cycles.starts, local[cycles.members])
 
     def at(self, cycle: int, steps: int) -> IntArray:
-        """Return the periodic vertices of the state so many steps behind the anchor of a cycle, in increasing order."""
-        found = self.members[self.starts[cycle] : self.starts[cycle + 1]]
+        """Return the periodic vertices of the state so many steps past the anchor of a cycle, in increasing order."""
+        vertices = self.members[self.starts[cycle] : self.starts[cycle + 1]]
         for _ in range(steps):
-            found = self.following[found]
-        return np.sort(found)
+            vertices = self.following[vertices]
+        return np.sort(vertices)

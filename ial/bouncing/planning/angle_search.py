@@ -110,7 +110,7 @@ def search_angles(
             "headings, or the angles to choose from"
         )
     choices = {turn: Headings(headings, turn, step) for turn in chosen}
-    found = []
+    outcomes = []
     phases: dict[int, Phase] = {}
     level: list[tuple[tuple[int, ...], InformationSets]] = []
     for turn, each in choices.items():
@@ -118,22 +118,22 @@ def search_angles(
         graph = disjoint_union([CellMap(raster, each, corner, merge=length == 1).graph for raster in rasters])
         automaton, phase = determinize(graph, most_states), Phase.of(graph)
         known = phase.after(InformationSets.everything(graph))
-        found.append(_outcome([each.bounce_deg], known, graph, len(automaton), len(automaton.cycles)))
+        outcomes.append(_outcome([each.bounce_deg], known, graph, len(automaton), len(automaton.cycles)))
         if length > 1:  # else one graph at a time is enough to hold
             phases[turn] = phase
             level.append(((turn,), known))
     for _ in range(length - 1):
-        if min(each.mean for each in found) == 1:
+        if min(each.mean for each in outcomes) == 1:
             break
         level = list(_longer(level, phases))
-        found += [_outcome([choices[turn].bounce_deg for turn in turns], known, phases[turns[-1]].graph) for turns, known in level]
-    return sorted(found, key=lambda each: each.rank)
+        outcomes += [_outcome([choices[turn].bounce_deg for turn in turns], known, phases[turns[-1]].graph) for turns, known in level]
+    return sorted(outcomes, key=lambda each: each.rank)
 
 
 def _longer(
     level: Iterable[tuple[tuple[int, ...], InformationSets]], phases: dict[int, Phase]
 ) -> Iterator[tuple[tuple[int, ...], InformationSets]]:
-    """Yield each sequence with each other angle behind it; the same angle again would change nothing."""
+    """Yield each sequence followed by each other angle; the same angle again would change nothing."""
     for turns, known in level:
         for turn, phase in phases.items():
             if turn != turns[-1]:

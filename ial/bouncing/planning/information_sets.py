@@ -19,7 +19,7 @@ class InformationSets:
         Set i is ``members[starts[i] : starts[i + 1]]``, int64 of shape (sets + 1,).
     members
         Vertices, int32.
-    behind
+    weights
         From how many first configurations the robot can have come to each member, with this knowledge; int64 of the same shape.
     elapsed
         The most observations that lead to each set, int64 of shape (sets,).
@@ -27,7 +27,7 @@ class InformationSets:
 
     starts: npt.NDArray[np.int64]
     members: npt.NDArray[np.int32]
-    behind: npt.NDArray[np.int64]
+    weights: npt.NDArray[np.int64]
     elapsed: npt.NDArray[np.int64]
 
     def __repr__(self) -> str:
@@ -37,19 +37,19 @@ class InformationSets:
     def everything(cls, graph: LabelledGraph) -> "InformationSets":
         """Return the one set of a robot that knows nothing."""
         count = len(graph)
-        behind = np.ones(count, dtype=np.int64) if graph.weights is None else graph.weights.astype(np.int64)
-        return cls(np.array([0, count]), np.arange(count, dtype=np.int32), behind, np.zeros(1, dtype=np.int64))
+        weights = np.ones(count, dtype=np.int64) if graph.weights is None else graph.weights.astype(np.int64)
+        return cls(np.array([0, count]), np.arange(count, dtype=np.int32), weights, np.zeros(1, dtype=np.int64))
 
     @classmethod
     def united(
         cls,
         starts: npt.NDArray[np.int64],
         members: npt.NDArray[np.int32],
-        behind: npt.NDArray[np.int64],
+        counts: npt.NDArray[np.int64],
         elapsed: npt.NDArray[np.int64],
     ) -> "InformationSets":
         """Return sets of which equal ones are taken together: what happens next does not depend on how a set was reached."""
-        found: dict[bytes, int] = {}
+        numbers: dict[bytes, int] = {}
         sets: list[npt.NDArray[np.int32]] = []
         weights: list[npt.NDArray[np.int64]] = []
         latest: list[int] = []
@@ -57,8 +57,8 @@ class InformationSets:
         for number, observed in enumerate(elapsed.tolist()):
             chosen = slice(bounds[number], bounds[number + 1])
             order = np.argsort(members[chosen])
-            held, weight = members[chosen][order], behind[chosen][order]
-            at = found.setdefault(held.tobytes(), len(sets))
+            held, weight = members[chosen][order], counts[chosen][order]
+            at = numbers.setdefault(held.tobytes(), len(sets))
             if at == len(sets):
                 sets.append(held)
                 weights.append(weight)
@@ -80,5 +80,5 @@ class InformationSets:
 
     def mean(self, graph: LabelledGraph) -> Fraction:
         """Return the uncertainty that a robot ends with on average, if all first configurations are equally likely."""
-        behind = np.add.reduceat(self.behind, self.starts[:-1])
-        return Fraction(int(behind @ self.uncertainty(graph)), int(behind.sum()))
+        weights = np.add.reduceat(self.weights, self.starts[:-1])
+        return Fraction(int(weights @ self.uncertainty(graph)), int(weights.sum()))

@@ -1,7 +1,7 @@
 """`Phase`: a robot bounces at one angle until it is on a knowledge cycle; what is known then, from what was known before.
 
 A set of vertices is on a knowledge cycle exactly if all of them are periodic and give the same observations for ever: then the cell map
-permutes them in a circle, and nothing more is ever learnt. Both are properties of the graph, found once; so a phase can begin in any set.
+permutes them in a circle, and nothing more is ever learnt. Both are properties of the graph, computed once; so a phase begins in any set.
 """
 
 from dataclasses import dataclass
@@ -17,26 +17,26 @@ from ial.contractors.kernels import kernel
 
 
 @kernel
-def _settle(arcs, final, starts, members, behind, elapsed):  # type: ignore[no-untyped-def]
+def _settle(arcs, final, starts, members, weights, elapsed):  # type: ignore[no-untyped-def]
     """Follow each set, divided by what is observed, until it is on a knowledge cycle.
 
     `final` holds the class of the observations of each periodic vertex, −1 for the others. The images of the two halves of a set take no
-    more room than the set, so all work is done where it stands: `members` and `behind` are overwritten.
+    more room than the set, so all work is done where it stands: `members` and `weights` are overwritten.
 
     Returns
     -------
     tuple
-        Number of sets, where they start, their members, the starts behind these, the observations until then; arrays longer than filled.
+        Number of sets, where they start, their members, the weights of these, the observations until then; arrays longer than filled.
     """
     room = len(members)
-    found, found_starts = 0, np.empty(room + 1, dtype=np.int64)
-    found_members, found_behind = np.empty(room, dtype=np.int32), np.empty(room, dtype=np.int64)
-    found_elapsed = np.empty(room, dtype=np.int64)
-    bumped, bumped_behind = np.empty(room, dtype=np.int32), np.empty(room, dtype=np.int64)
+    settled, settled_starts = 0, np.empty(room + 1, dtype=np.int64)
+    settled_members, settled_weights = np.empty(room, dtype=np.int32), np.empty(room, dtype=np.int64)
+    settled_elapsed = np.empty(room, dtype=np.int64)
+    bumped, bumped_weights = np.empty(room, dtype=np.int32), np.empty(room, dtype=np.int64)
     stamps, places = np.full(len(arcs), -1, dtype=np.int64), np.empty(len(arcs), dtype=np.int64)
-    waiting = np.empty((room + 1, 3), dtype=np.int64)  # first, behind the last, observations
+    waiting = np.empty((room + 1, 3), dtype=np.int64)  # first, end, observations
     stamp = 0
-    found_starts[0] = 0
+    settled_starts[0] = 0
     for number in range(len(starts) - 1):
         waiting[0, 0], waiting[0, 1], waiting[0, 2] = starts[number], starts[number + 1], elapsed[number]
         count = 1
@@ -51,42 +51,42 @@ def _settle(arcs, final, starts, members, behind, elapsed):  # type: ignore[no-u
                         done = False
                         break
                 if done:
-                    at = found_starts[found]
+                    at = settled_starts[settled]
                     for i in range(first, stop):
-                        found_members[at], found_behind[at] = members[i], behind[i]
+                        settled_members[at], settled_weights[at] = members[i], weights[i]
                         at += 1
-                    found_elapsed[found] = observed
-                    found += 1
-                    found_starts[found] = at
+                    settled_elapsed[settled] = observed
+                    settled += 1
+                    settled_starts[settled] = at
                     break
                 still, bumps = first, 0
                 for i in range(first, stop):
-                    arc, weight = arcs[members[i]], behind[i]
+                    arc, weight = arcs[members[i]], weights[i]
                     if arc >= 0:
                         if stamps[arc] == stamp:
-                            behind[places[arc]] += weight
+                            weights[places[arc]] += weight
                         else:
                             stamps[arc], places[arc] = stamp, still
-                            members[still], behind[still] = arc, weight
+                            members[still], weights[still] = arc, weight
                             still += 1
                     else:
                         arc = ~arc
                         if stamps[arc] == stamp + 1:
-                            bumped_behind[places[arc]] += weight
+                            bumped_weights[places[arc]] += weight
                         else:
                             stamps[arc], places[arc] = stamp + 1, bumps
-                            bumped[bumps], bumped_behind[bumps] = arc, weight
+                            bumped[bumps], bumped_weights[bumps] = arc, weight
                             bumps += 1
                 stamp += 2
                 observed += 1
                 for i in range(bumps):
-                    members[still + i], behind[still + i] = bumped[i], bumped_behind[i]
+                    members[still + i], weights[still + i] = bumped[i], bumped_weights[i]
                 stop = still + bumps
                 if still > first and bumps > 0:
                     waiting[count, 0], waiting[count, 1], waiting[count, 2] = still, stop, observed
                     count += 1
                     stop = still
-    return found, found_starts, found_members, found_behind, found_elapsed
+    return settled, settled_starts, settled_members, settled_weights, settled_elapsed
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,7 +122,7 @@ class Phase:
         known
             Sets of vertices of this graph, as they are when the phase begins.
         """
-        found, starts, members, behind, elapsed = _settle(
-            self.graph.arcs, self.final, known.starts, known.members.copy(), known.behind.copy(), known.elapsed
+        settled, starts, members, weights, elapsed = _settle(
+            self.graph.arcs, self.final, known.starts, known.members.copy(), known.weights.copy(), known.elapsed
         )
-        return InformationSets.united(starts[: found + 1], members, behind, elapsed[:found])
+        return InformationSets.united(starts[: settled + 1], members, weights, elapsed[:settled])

@@ -61,10 +61,10 @@ def coarsened(states: RaySet, walls: Walls, most: int) -> RaySet:
     for finer in range(level, FINEST + 1):
         if best is not None and _cells(states, walls, finer) > _PIECES_PER_CELL * most:
             break
-        found = _joined(_cut(states, walls, finer), walls, finer)
-        if best is not None and len(found) > most:
+        joined = _joined(_cut(states, walls, finer), walls, finer)
+        if best is not None and len(joined) > most:
             break
-        best = found
+        best = joined
     assert best is not None
     return best
 
@@ -100,17 +100,17 @@ def _joined(states: RaySet, walls: Walls, level: int) -> RaySet:
         return states
     middle = 0.5 * (states.lower + states.upper)
     parts = _parts(walls, level)
-    behind = np.cumsum(parts)
+    ends = np.cumsum(parts)
     # The end of a wall belongs to its last part: one further on is the first of the next wall.
-    part = np.minimum(np.floor(middle[:, 0] * parts[states.walls]), parts[states.walls] - 1.0) + (behind - parts)[states.walls]
+    part = np.minimum(np.floor(middle[:, 0] * parts[states.walls]), parts[states.walls] - 1.0) + (ends - parts)[states.walls]
     # Headings go at most twice around, but for rounding.
     heading = np.clip(np.floor(middle[:, 1] * (2.0**level / _TWO_PI)), 0.0, 2.0 ** (level + 1) - 1.0)
     _, group = np.unique(2 * states.steps.astype(np.int64) + states.arriving, return_inverse=True)
-    keys = ((group * (int(behind[-1]) + 1) + part.astype(np.int64)) << (level + 1)) + heading.astype(np.int64)
+    keys = ((group * (int(ends[-1]) + 1) + part.astype(np.int64)) << (level + 1)) + heading.astype(np.int64)
     order = np.argsort(keys, kind="stable")
     keys = keys[order]
     starts = np.flatnonzero(np.concatenate([[True], keys[1:] != keys[:-1]]))
-    found = states.only(order[starts])
+    first = states.only(order[starts])
     lower = np.minimum.reduceat(states.lower[order], starts, axis=0)
     upper = np.maximum.reduceat(states.upper[order], starts, axis=0)
-    return RaySet(found.walls, lower, upper, found.steps, found.arriving, found.reach)
+    return RaySet(first.walls, lower, upper, first.steps, first.arriving, first.reach)

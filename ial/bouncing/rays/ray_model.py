@@ -135,9 +135,9 @@ class RayModel(Model[RaySet, None, int]):
         longer = RaySet(states.walls, states.lower, states.upper, (states.steps + steps).astype(np.int32), states.arriving, states.reach)
         return self._bumped(longer)
 
-    def unite(self, found: RaySet, predicted: RaySet) -> RaySet:
+    def unite(self, confirmed: RaySet, predicted: RaySet) -> RaySet:
         """Return the pieces of either set."""
-        return RaySet.joined(found, predicted)
+        return RaySet.joined(confirmed, predicted)
 
     def empty(self, states: RaySet) -> bool:
         """Return whether nothing is left: the robot is in no place of the environment."""
@@ -171,8 +171,8 @@ class RayModel(Model[RaySet, None, int]):
         states = coarsened(states, self.walls, self.most_pieces)
         table, links = self.walls.table
         reach = reaches(states.walls, states.lower, states.upper, states.arriving, table, links, self.walls.margin)
-        found = RaySet(states.walls, states.lower, states.upper, states.steps, states.arriving, reach)
-        return found.only(reach >= 0.0)
+        prepared = RaySet(states.walls, states.lower, states.upper, states.steps, states.arriving, reach)
+        return prepared.only(reach >= 0.0)
 
     def _arrived(self, states: RaySet) -> RaySet:
         """Return the pieces to which the robot can have come from where it was at the start."""
@@ -207,12 +207,12 @@ class RayModel(Model[RaySet, None, int]):
         _, links = self.walls.table
         starting = states.only((states.lower[:, 0] <= 0.0) & (links[states.walls, 2] < 0))
         ending = states.only((states.upper[:, 0] >= 1.0) & (links[links[states.walls, 0], 2] < 0))
-        found = [states]
+        sets = [states]
         for part, there, link in ((starting, 1.0, 1), (ending, 0.0, 0)):
             lower, upper = part.lower.copy(), part.upper.copy()
             lower[:, 0] = upper[:, 0] = there
-            found.append(RaySet(links[part.walls, link], lower, upper, part.steps, part.arriving, part.reach))
-        return RaySet.joined(*found)
+            sets.append(RaySet(links[part.walls, link], lower, upper, part.steps, part.arriving, part.reach))
+        return RaySet.joined(*sets)
 
     def places(self, states: RaySet) -> Boxes:
         """Return where the robot can be now: boxes of x, y in the frame of the environment and the heading in radians.
@@ -242,8 +242,8 @@ class RayModel(Model[RaySet, None, int]):
         margin = self.walls.margin
         bounds = []
         for side, wave in ((0, cos), (1, sin)):
-            found = part * wall[:, 2 + side : 3 + side] + wall[:, side : 1 + side] + way * wave(heading)
-            bounds.append((found.lower[:, 0] - margin, found.upper[:, 0] + margin))
+            moved = part * wall[:, 2 + side : 3 + side] + wall[:, side : 1 + side] + way * wave(heading)
+            bounds.append((moved.lower[:, 0] - margin, moved.upper[:, 0] + margin))
         return Boxes(np.stack([low for low, _ in bounds], axis=1), np.stack([high for _, high in bounds], axis=1))
 
 

@@ -129,7 +129,7 @@ class RealRobot:
     def _distance(self, dx: int, dy: int) -> int:
         """Return how far the robot can drive in a direction until it touches a wall that is in its way."""
         x, y, radius = self.x, self.y, self.radius
-        found = []
+        distances = []
         for (ax, ay), (bx, by) in self._walls:
             ex, ey = bx - ax, by - ay
             square = ex * ex + ey * ey
@@ -141,7 +141,7 @@ class RealRobot:
                     far = max(gap, 0) * ONE // speed
                     foot = ((x - ax + (far * dx >> BITS)) * ex + (y - ay + (far * dy >> BITS)) * ey) // length
                     if -_TINY <= foot <= length + _TINY:
-                        found.append(far)
+                        distances.append(far)
             if radius:
                 mx, my = x - ax, y - ay
                 approach = -(mx * dx + my * dy) >> BITS
@@ -149,8 +149,8 @@ class RealRobot:
                 if approach > _TINY and rest >= 0:
                     far = approach - math.isqrt(rest)
                     if far >= -_TINY:
-                        found.append(max(far, 0))
-        return min(found)
+                        distances.append(max(far, 0))
+        return min(distances)
 
     def _drawn(self) -> Fraction:
         """Return a number from −1 to 1; the ends are as likely as all the rest, since bounds are broken there if anywhere."""
@@ -158,7 +158,7 @@ class RealRobot:
         return Fraction(self._random.choice((-_PARTS, _PARTS, some, some)), _PARTS)
 
     def leg(self) -> Iterator[RealPose]:
-        """Drive to the next bump, and turn; yield the pose behind each observation.
+        """Drive to the next bump, and turn; yield the pose after each observation.
 
         A clock that counts too few leaves out the last steps; one that counts too many goes on while the robot stands at the wall.
         """
@@ -179,7 +179,7 @@ class RealRobot:
         yield RealPose(1, *_metres(self.x, self.y), self.turn)
 
     def run(self) -> Iterator[RealPose]:
-        """Drive on for ever; yield the pose behind each observation."""
+        """Drive on for ever; yield the pose after each observation."""
         while True:
             yield from self.leg()
 

@@ -8,7 +8,7 @@ from ial.bouncing.filters.bounce_filter import BounceFilter
 
 
 def outcome(made: BounceFilter, states: Sequence[int]) -> dict[str, Any]:
-    """Return what the states behind the observations of a stream tell, as plain values that JSON can hold; observations count from 1."""
+    """Return what the states after the observations of a stream tell, as plain values that JSON can hold; observations count from 1."""
     table = made.table
     path = [0, *states]
     state = path[-1]
@@ -53,7 +53,7 @@ def lines(record: Mapping[str, Any], most: int) -> Iterator[str]:
 
 
 def _heading(angles: Sequence[float]) -> str:
-    """Return headings in words; several begin behind the widest gap, since they may lie on both sides of 0°."""
+    """Return headings in words; several begin after the widest gap, since they may lie on both sides of 0°."""
     if len(angles) == 1:
         return f"{angles[0]:g}°"
     gaps = [(now - before) % 360.0 for before, now in zip([angles[-1], *angles], angles, strict=False)]

@@ -49,21 +49,21 @@ def search_angle(
     rasters = all_free_cells(loaded, width, number(radius, "--radius"), rule)
     chosen = None if angle is None else [number(each, "--angle") for each in angle]
     moved = step_cells(step, loaded, width)
-    found = search_angles(list(rasters.values()), headings, moved, corner, chosen, sequence, most_states)
+    outcomes = search_angles(list(rasters.values()), headings, moved, corner, chosen, sequence, most_states)
     if as_json:
-        say_json({"environments": list(loaded), "headings": headings, "best": _record(found[0]), "sequences": [*map(_record, found)]})
+        say_json({"environments": list(loaded), "headings": headings, "best": _record(outcomes[0]), "sequences": [*map(_record, outcomes)]})
         return
     configurations = headings * sum(int(each.free.sum()) for each in rasters.values())
     cells_m = float(next(iter(rasters.values())).cell)
     say(f"{', '.join(loaded)}: {configurations} configurations, {headings} headings, cells of {cells_m:g} m")
-    _print_angles([each for each in found if len(each.angles_deg) == 1])
-    longer = [each for each in found if len(each.angles_deg) > 1]
+    _print_angles([each for each in outcomes if len(each.angles_deg) == 1])
+    longer = [each for each in outcomes if len(each.angles_deg) > 1]
     if longer:
         say()
         _print_sequences(longer)
     elif sequence > 1:
         say("no longer sequence was tried: one angle leaves no robot uncertain")
-    best = found[0]
+    best = outcomes[0]
     say()
     say(
         f"best: {_angles(best)}; a robot ends in {best.worst} configuration{'s' * (best.worst != 1)} at worst, {float(best.mean):.4g} on "

@@ -56,7 +56,7 @@ def show(
 
     check_outputs([out], paths, overwrite)
     if late := next((path for path in paths[1:] if path.suffix == ".npz"), None):
-        raise ConfigError(f"{late}: a filter comes first, and its environments behind it: {late.name} ENV …")
+        raise ConfigError(f"{late}: a filter comes first, and its environments after it: {late.name} ENV …")
     if paths[0].suffix == ".npz":
         made = read_filter(paths[0])
         rasters = _walls(made, paths[1:])
@@ -67,7 +67,7 @@ def show(
         made = build_filter(loaded, robot, width, number(radius, "--radius"), rule, corner, most_states)
         rasters = all_free_cells(loaded, width, number(radius, "--radius"), rule)
     if what == "basins" and not rasters:
-        raise ConfigError(f"{paths[0]}: a filter holds no basins; give the environments behind it: {paths[0].name} ENV …")
+        raise ConfigError(f"{paths[0]}: a filter holds no basins; give the environments after it: {paths[0].name} ENV …")
     _draw(out, made, rasters, what)
     say(f"picture in {shown(out)}")
 

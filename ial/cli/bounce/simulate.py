@@ -25,7 +25,7 @@ def simulate(
     start: Annotated[
         tuple[str, str, str] | None, typer.Option(metavar="X Y DEGREES", help="Where to start; at random if it is left out.")
     ] = None,
-    truth: Annotated[Path | None, typer.Option(metavar="CSV", help="Where to write the pose behind each observation.")] = None,
+    truth: Annotated[Path | None, typer.Option(metavar="CSV", help="Where to write the pose after each observation.")] = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Drive a bouncing robot through an environment, with real geometry and errors within bounds, and write down what it observes."""
@@ -49,4 +49,4 @@ def simulate(
     say(f"{len(poses)} observations, {sum(pose.observation for pose in poses)} of them bumps, in {shown(out)}")
     if truth is not None:
         write_truth(poses, truth)
-        say(f"the poses behind them in {shown(truth)}")
+        say(f"the poses after them in {shown(truth)}")

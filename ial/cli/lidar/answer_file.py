@@ -14,7 +14,7 @@ class AnswerFile(AbstractContextManager["AnswerFile"]):
     """A file of one run, which knows it again after a stop.
 
     Before each line the state is told what the file holds and what comes next (`before`); then the line is written (`append`). Wherever a
-    run is killed, its file is as the last state says, and behind that a beginning of the line that the state holds. Any other file is
+    run is killed, its file is as the last state says, and after that a beginning of the line that the state holds. Any other file is
     refused. The file itself is made with the first line.
 
     Parameters
@@ -88,7 +88,7 @@ class AnswerFile(AbstractContextManager["AnswerFile"]):
         except FileNotFoundError:
             end = b""
         except OSError as error:
-            raise OutputError(f"{self._path}: cannot be read ({error.strerror or error}); it is needed to go on behind its end") from None
+            raise OutputError(f"{self._path}: cannot be read ({error.strerror or error}); it is needed to go on after its end") from None
         missing = known.rest(end)
         if missing is not None:
             self._replaces = False

@@ -109,7 +109,7 @@ class Streaming:
             warm(self.config)
             mine = fingerprint(localizer)
             if checkpoint is not None:
-                remark("note", f"goes on behind scan {checkpoint.mark.index}, as {self.state} says", "cyan")
+                remark("note", f"goes on after scan {checkpoint.mark.index}, as {self.state} says", "cyan")
             if out is not None:
                 stack.enter_context(out)
             source = self._source(ending)

@@ -41,13 +41,13 @@ def where(
     from ial.cli.shell.inputs import Inputs
     from ial.datasets.recording import steps
     from ial.lidar.atlas import Atlas
-    from ial.maps.grids.loading import load_map
 
     inputs = Inputs(recording, None, scan_topic, odom_topic, laser_pose)
     check_outputs([] if out is None else [out], [inputs.paths[0], *maps, config], overwrite)
     resolved = resolve(config, settings or ())
     source = inputs.source()
-    atlas = Atlas({name: load_map(path, semantics) for name, path in named(maps).items()}, resolved)
+    grids = {name: Inputs(map_path=path, semantics=semantics).grid() for name, path in named(maps).items()}
+    atlas = Atlas(grids, resolved)
     with Lines(out) as lines:
         chosen = steps(source, resolved.bounds.motion, start, stop, every, no_return=resolved.free_space.no_return)
         for step in progress(chosen, None, Path(source.name).name):

@@ -24,10 +24,10 @@ def named(paths: Sequence[Path]) -> dict[str, Path]:
         If a map is given twice.
     """
     stems = Counter(path.stem for path in paths)
-    found = {path.stem if stems[path.stem] == 1 else str(path): path for path in paths}
-    if len(found) < len(paths):
+    by_name = {path.stem if stems[path.stem] == 1 else str(path): path for path in paths}
+    if len(by_name) < len(paths):
         raise ConfigError("a map is given twice; give every map once")
-    return found
+    return by_name
 
 
 class Lines(AbstractContextManager["Lines"]):
@@ -46,27 +46,27 @@ class Lines(AbstractContextManager["Lines"]):
         self._scans = 0
         self.last: Whereabouts | None = None
 
-    def add(self, step: Step, found: Whereabouts) -> None:
+    def add(self, step: Step, whereabouts: Whereabouts) -> None:
         """Take the answer to one scan."""
         self._scans += 1
-        self.last = found
-        for name, hypotheses in found.hypotheses.items():
+        self.last = whereabouts
+        for name, hypotheses in whereabouts.hypotheses.items():
             if hypotheses:
                 self._since[name] = None
             elif self._since.get(name) is None:
                 self._since[name] = step.index
         if self._path is not None:
-            pose = found.pose
+            pose = whereabouts.pose
             self._text.append(
                 json_line(
                     step,
-                    status=found.status,
-                    map=found.map,
+                    status=whereabouts.status,
+                    map=whereabouts.map,
                     pose=None if pose is None else {"x": pose.x, "y": pose.y, "theta": pose.theta},
-                    outliers_allowed=found.outliers_allowed,
-                    **({"vanishing": True} if found.vanishing else {}),
-                    maps={name: [hypothesis_record(each) for each in hypotheses] for name, hypotheses in found.hypotheses.items()},
-                    elapsed_s=found.elapsed_s,
+                    outliers_allowed=whereabouts.outliers_allowed,
+                    **({"vanishing": True} if whereabouts.vanishing else {}),
+                    maps={name: [hypothesis_record(each) for each in hypotheses] for name, hypotheses in whereabouts.hypotheses.items()},
+                    elapsed_s=whereabouts.elapsed_s,
                 )
             )
 
@@ -86,7 +86,7 @@ class Lines(AbstractContextManager["Lines"]):
             "status": last.status,
             "map": last.map,
             "pose": None if last.pose is None else {"x": last.pose.x, "y": last.pose.y, "theta": last.pose.theta},
-            "maps": {name: {"hypotheses": len(found), "impossible_since": self._since[name]} for name, found in last.hypotheses.items()},
+            "maps": {name: {"hypotheses": len(each), "impossible_since": self._since[name]} for name, each in last.hypotheses.items()},
         }
 
     def report(self) -> Iterator[str]:
@@ -97,9 +97,9 @@ class Lines(AbstractContextManager["Lines"]):
             yield f"in {record['map']}, at x {pose['x']:.2f} m, y {pose['y']:.2f} m, θ {pose['theta']:.2f} rad"
         else:
             yield f"after {record['scans']} scans: {record['status']}"
-        for name, found in record["maps"].items():
-            count = found["hypotheses"]
+        for name, entry in record["maps"].items():
+            count = entry["hypotheses"]
             words = (
-                f"{count} {'hypothesis' if count == 1 else 'hypotheses'}" if count else f"impossible since scan {found['impossible_since']}"
+                f"{count} {'hypothesis' if count == 1 else 'hypotheses'}" if count else f"impossible since scan {entry['impossible_since']}"
             )
             yield f"{name}: {words}"

@@ -20,14 +20,14 @@ def map_info(
     from ial.maps.grids.occupancy_grid import check_usable
 
     grid = Inputs(map_path=path, semantics=semantics, map_topic=map_topic).grid()
-    found = grid.describe()
+    facts = grid.describe()
     if as_json:
-        say_json(found)
+        say_json(facts)
     else:
-        origin, total = found["origin"], found["columns"] * found["rows"]
-        say(f"{path}: {found['width_m']:.2f} × {found['height_m']:.2f} m, {found['columns']} × {found['rows']} cells")
-        say(f"resolution  {found['resolution_m']:g} m per cell")
+        origin, total = facts["origin"], facts["columns"] * facts["rows"]
+        say(f"{path}: {facts['width_m']:.2f} × {facts['height_m']:.2f} m, {facts['columns']} × {facts['rows']} cells")
+        say(f"resolution  {facts['resolution_m']:g} m per cell")
         say(f"origin      x {origin['x']:g} m, y {origin['y']:g} m, yaw {origin['theta']:g} rad")
-        for name, count in found["cells"].items():
-            say(f"{name:<10}  {count} cells, {found['area_m2'][name]:.1f} m², {100.0 * count / total:.1f} %")
+        for name, count in facts["cells"].items():
+            say(f"{name:<10}  {count} cells, {facts['area_m2'][name]:.1f} m², {100.0 * count / total:.1f} %")
     check_usable(grid)

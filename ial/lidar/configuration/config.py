@@ -182,7 +182,7 @@ class LocalizerConfig(Record):
         metadata=key(
             Maybe(_SIZE),
             "a limit on the time of one scan; null for none. An answer that reaches it is coarser, marked, and not reproducible, nor need"
-            " be those of the scans behind it",
+            " be those of later scans",
             "s",
         ),
     )

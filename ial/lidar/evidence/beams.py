@@ -17,6 +17,7 @@ from ial.datasets.scan import BeamClass, LaserScan, Mounting
 from ial.lidar.configuration.config import Bounds, FreeSpace, LocalizerConfig
 from ial.lidar.configuration.share import Share, number_of
 from ial.lidar.evidence.directions import unit_vectors
+from ial.lidar.evidence.evidence import Evidence
 from ial.lidar.evidence.rays import Rays
 from ial.lidar.evidence.sweep import sweep_boxes
 from ial.lidar.margins import ANYWHERE_M
@@ -69,10 +70,18 @@ class Beams:
         """Return how many beams are used, those without return counted whose rays are."""
         return len(self.ends) + (0 if self.rays is None else int((self.rays.beams < 0).sum()))
 
+    def __repr__(self) -> str:
+        return f"<Beams: {len(self)}, of which {self.outliers} may be bad>"
+
     @property
     def informative(self) -> bool:
         """Whether the scan can exclude any pose at all: with as many outliers as beams it cannot."""
         return self.outliers < len(self)
+
+    @property
+    def evidence(self) -> Evidence:
+        """What the beams say of where they end, as kernels take it."""
+        return Evidence(self.ends, self.directions, self.errors, float(self.map_error_m), int(self.outliers))
 
     def allowing(self, outliers: int) -> "Beams":
         """Return the same evidence with a fixed number of beams that may be bad."""

@@ -14,11 +14,23 @@ def _drawn_in(cells):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def relative_bounds(theta_lower, theta_upper, ends, directions, errors, map_error, resolution, out):  # type: ignore[no-untyped-def]
-    """Fill `out` with the bounds of each end point relative to the robot, in cells: x lower, y lower, x upper, y upper; shape (n, 4).
+def relative_bounds(theta_lower, theta_upper, evidence, resolution, out):  # type: ignore[no-untyped-def]
+    """Fill `out` with the bounds of each end point relative to the robot, in cells: x lower, y lower, x upper, y upper.
 
     The distance that the map may be wrong is included, and `margins.MARGIN`.
+
+    Parameters
+    ----------
+    theta_lower, theta_upper
+        The heading.
+    evidence
+        The `Evidence` of the scan.
+    resolution
+        The width of a cell.
+    out
+        Where to write the bounds, float64 of shape (n, 4).
     """
+    ends, directions, errors, map_error = evidence.ends, evidence.directions, evidence.errors, evidence.map_error
     # `turn_point` takes arcs below π, and sines are known up to a largest angle; beyond, every heading may be meant.
     whole = not (theta_upper - theta_lower < 3.0 and theta_lower >= -LARGEST_ANGLE and theta_upper <= LARGEST_ANGLE)
     s0, c0 = sincos(theta_lower)

@@ -37,6 +37,9 @@ class Rays:
     def __len__(self) -> int:
         return len(self.angles)
 
+    def __repr__(self) -> str:
+        return f"<Rays: {len(self)}>"
+
     @property
     def reach_m(self) -> float:
         """How far from the robot something that a ray meets can be, at most (m): beside the end of the ray's strip; 0 without rays."""

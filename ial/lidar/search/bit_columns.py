@@ -19,7 +19,7 @@ class BitColumns:
     Attributes
     ----------
     upwards
-        One line of words for each column; bit i counts rows. uint64, with a word of zeros before and two behind.
+        One line of words for each column; bit i counts rows. uint64, with a word of zeros before and two after.
     rightwards
         The same for each row; bit i counts columns.
     """

@@ -1,27 +1,70 @@
 """How far an answer really reaches: its outer cells are cut back to the pieces of them that may hold a consistent pose.
 
-A search ends with cells of one size. Where few of them are left, their outer faces, those without a neighbour, can be found more finely:
+A search ends with cells of one size. Where few of them are left, their outer faces, those without a neighbour, can be refined:
 the cell is halved along every axis, again and again, and each outer face is moved to the outermost piece that may hold a consistent pose.
 A cell without such a piece is dropped. Faces between two cells stay where they are, so that what belongs together stays connected.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 import numpy.typing as npt
 
-from ial.contractors.boxes import Boxes
+from ial.contractors.boxes import Boxes, FloatArray
 from ial.contractors.groups import group_rows
 from ial.contractors.kernels import kernel
 from ial.contractors.paving.clusters import Clusters, cluster
 from ial.contractors.threads import run
 from ial.lidar.evidence.beams import Beams
 from ial.lidar.evidence.end_points import relative_bounds
-from ial.lidar.margins import NEAR
+from ial.lidar.search.flat_table import FlatTable, flat_table
 from ial.lidar.search.lattice import Lattice
 from ial.lidar.search.map_tables import Sections
 from ial.lidar.search.outer_faces import outer_faces
-from ial.lidar.search.rectangle_indices import OFFSET
 from ial.lidar.search.scan_contractor import fits
-from ial.maps.grids.cell_index import BORDER, meets
+from ial.lidar.search.table_coordinates import in_cells
+from ial.maps.grids.cell_index import meets
+from ial.maps.grids.cell_table import CellTable
+
+
+class _Layers(NamedTuple):
+    """Which cells belong to each layer of headings: order[edges[i]] … order[edges[i + 1] - 1]."""
+
+    order: npt.NDArray[np.intp]
+    edges: npt.NDArray[np.intp]
+
+
+class _Cells(NamedTuple):
+    """Cells, which of their faces may be moved, bool of shape (n, 2, 3), and which cells are to be cut."""
+
+    lower: FloatArray
+    upper: FloatArray
+    outer: npt.NDArray[np.bool_]
+    wanted: npt.NDArray[np.bool_]
+
+
+class _Refined(NamedTuple):
+    """What is left of the cells, and of which anything is."""
+
+    lower: FloatArray
+    upper: FloatArray
+    kept: npt.NDArray[np.bool_]
+
+
+class _Tables(NamedTuple):
+    """The tables of a section: the cells that beams may end at, the same as one line, and those in which the robot may be."""
+
+    occupied: CellTable
+    flat: FlatTable
+    domain: CellTable
+
+
+class _Tree(NamedTuple):
+    """The halves of a cell's headings, halved `depth` times: for each node whether the beams' relative bounds are known, and these."""
+
+    depth: int
+    known: npt.NDArray[np.bool_]
+    bounds: FloatArray
 
 
 @kernel
@@ -37,7 +80,7 @@ def _interval(lower, upper, depth, number):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _reach(cell, outer, depth, evidence, q, grid, headings, stack, reached):  # type: ignore[no-untyped-def]
+def _reach(cell, outer, evidence, tables, tree, failing, stack, reached):  # type: ignore[no-untyped-def]
     """Write how far the pieces of a cell that may hold a consistent pose reach; return whether there are any.
 
     Pieces are looked at from the outer faces inward, and none that would not reach farther than those found before.
@@ -48,22 +91,27 @@ def _reach(cell, outer, depth, evidence, q, grid, headings, stack, reached):  # 
         Lower and upper bounds, float64 of shape (2, 3).
     outer
         Which faces may be moved: lower and upper along each axis, bool of shape (2, 3).
-    headings
-        For each node of the tree of halves of the cell's headings: whether the relative bounds of the beams are known, and these.
+    evidence
+        The `Evidence` of the scan.
+    tables
+        The `_Tables` of a section.
+    tree
+        The `_Tree` of the cell's headings.
+    failing
+        An order of the beams; see `fits`.
     stack
         Working space.
     reached
         Where to write the bounds. Those at other faces are those of the cell.
     """
-    ends, directions, errors, map_error = evidence
-    resolution, flat, stride, row_limit, column_limit, origin, domain = grid
-    known, bounds, failing = headings
+    resolution, origin = tables.occupied.resolution, tables.occupied.origin
+    depth, known, bounds = tree
     first = 0
     for axis in range(3):
         reached[0, axis] = np.inf if outer[0, axis] else cell[0, axis]
         reached[1, axis] = -np.inf if outer[1, axis] else cell[1, axis]
         first |= (outer[1, axis] and not outer[0, axis]) << axis  # the half along each axis that lies at an outer face
-    found = False
+    met = False
     stack[0, :] = 0
     height = 1
     while height:
@@ -82,21 +130,17 @@ def _reach(cell, outer, depth, evidence, q, grid, headings, stack, reached):  # 
                 and tu <= reached[1, 2]
             ):
                 continue
-            if not meets(domain[0], domain[1], domain[2], xl, xu, yl, yu):
+            if not meets(tables.domain, xl, xu, yl, yu):
                 continue
             node = (1 << level) + nt
             if not known[node]:
-                relative_bounds(tl, tu, ends, directions, errors, map_error, resolution, bounds[node])
+                relative_bounds(tl, tu, evidence, resolution, bounds[node])
                 known[node] = True
-            left, right = xl / resolution - origin[1], xu / resolution - origin[1]
-            below, above = yl / resolution - origin[0], yu / resolution - origin[0]
-            near = min(left, below) >= -NEAR and max(right, above) <= NEAR
-            left, below = left + OFFSET, below + OFFSET
-            right, above = right + (OFFSET + 1.0), above + (OFFSET + 1.0)
-            if near and not fits(left, below, right, above, bounds[node], q, flat, stride, row_limit, column_limit, failing):
+            left, below, right, above, near = in_cells(xl, yl, xu, yu, resolution, origin)
+            if near and not fits(tables.flat, bounds[node], evidence.outliers, failing, left, below, right, above):
                 continue
         if level == depth:
-            found = True
+            met = True
             for axis in range(3):
                 low, high = (xl, xu) if axis == 0 else (yl, yu) if axis == 1 else (tl, tu)
                 if outer[0, axis]:
@@ -111,39 +155,42 @@ def _reach(cell, outer, depth, evidence, q, grid, headings, stack, reached):  # 
             stack[height, 2] = 2 * ny + ((child >> 1) & 1)
             stack[height, 3] = 2 * nt + (child >> 2)
             height += 1
-    return found
+    return met
 
 
 @kernel
-def _refine(start, stop, layers, cells, outer, wanted, depth, evidence, q, tables, headings, cut, kept):  # type: ignore[no-untyped-def]
+def _refine(start, stop, layers, cells, evidence, occupied, domain, trees, refined):  # type: ignore[no-untyped-def]
     """Cut the wanted cells of layers start … stop - 1, and write which of them hold a piece.
 
     Parameters
     ----------
     layers
-        Which rows belong to each layer: order[edges[i]] … order[edges[i + 1] - 1].
-    headings
-        For each layer what `_reach` knows of its headings, from one call to the next.
+        `_Layers`.
+    cells
+        `_Cells`.
+    evidence
+        The `Evidence` of the scan.
+    occupied, domain
+        The cells that beams may end at, and those in which the robot may be: a `CellTable` each.
+    trees
+        The `_Tree` of each layer, from one call to the next; arrays have one more axis, the first.
+    refined
+        `_Refined`.
     """
-    resolution, bordered, origin, domain = tables
-    row_limit = np.int32(bordered.shape[0] - 1)
-    column_limit = np.int32(bordered.shape[1] - 1 - 2 * BORDER)
-    grid = (resolution, bordered.reshape(-1)[BORDER:], np.uint64(bordered.shape[1]), row_limit, column_limit, origin, domain)
-    order, edges = layers
-    known, bounds = headings
-    failing = np.arange(len(evidence[0]))
-    stack = np.empty((8 * (depth + 1), 4), dtype=np.int64)
+    tables = _Tables(occupied, flat_table(occupied.bordered), domain)
+    failing = np.arange(len(evidence.ends))
+    stack = np.empty((8 * (trees.depth + 1), 4), dtype=np.int64)
     cell, reached = np.empty((2, 3)), np.empty((2, 3))
     for layer in range(start, stop):
-        for at in range(edges[layer], edges[layer + 1]):
-            row = order[at]
-            if wanted[row]:
+        for at in range(layers.edges[layer], layers.edges[layer + 1]):
+            row = layers.order[at]
+            if cells.wanted[row]:
                 for axis in range(3):
-                    cell[0, axis], cell[1, axis] = cells[0][row, axis], cells[1][row, axis]
-                of_layer = (known[layer], bounds[layer], failing)
-                kept[row] = _reach(cell, outer[row], depth, evidence, q, grid, of_layer, stack, reached)
+                    cell[0, axis], cell[1, axis] = cells.lower[row, axis], cells.upper[row, axis]
+                tree = _Tree(trees.depth, trees.known[layer], trees.bounds[layer])
+                refined.kept[row] = _reach(cell, cells.outer[row], evidence, tables, tree, failing, stack, reached)
                 for axis in range(3):
-                    cut[0][row, axis], cut[1][row, axis] = reached[0, axis], reached[1, axis]
+                    refined.lower[row, axis], refined.upper[row, axis] = reached[0, axis], reached[1, axis]
 
 
 def refine_border(cells: Boxes, lattice: Lattice, sections: Sections, beams: Beams, depth: int) -> tuple[Boxes, npt.NDArray[np.bool_]]:
@@ -167,8 +214,9 @@ def refine_border(cells: Boxes, lattice: Lattice, sections: Sections, beams: Bea
     lower, upper, kept = cells.lower.copy(), cells.upper.copy(), np.ones(len(cells), dtype=np.bool_)
     order = group_rows(lower[:, 2], upper[:, 2])
     edges = np.flatnonzero(np.concatenate([[True], np.diff(lower[order, 2]) != 0.0, [True]]))
-    evidence = (beams.ends, beams.directions, beams.errors, beams.map_error_m)
-    headings = (np.zeros((len(edges) - 1, 2 << depth), dtype=np.bool_), np.empty((len(edges) - 1, 2 << depth, len(beams.ends), 4)))
+    known = np.zeros((len(edges) - 1, 2 << depth), dtype=np.bool_)
+    trees = _Tree(depth, known, np.empty((*known.shape, len(beams.ends), 4)))
+    layers, refined = _Layers(order, edges), _Refined(lower, upper, kept)
     places = [(key, rows) for key, rows, _ in sections.parts(cells)]
     outer = outer_faces(cells, lattice)
     uncovered = np.asarray(outer.any(axis=(1, 2)))
@@ -177,10 +225,9 @@ def refine_border(cells: Boxes, lattice: Lattice, sections: Sections, beams: Bea
         for key, rows in places:
             wanted = np.zeros(len(cells), dtype=np.bool_)
             wanted[rows] = uncovered[rows]
-            occupied, domain = sections[key].occupied, sections[key].domain
-            tables = (occupied.resolution, occupied.bordered, occupied.origin, (domain.table, domain.origin, domain.inverse_resolution))
-            bounds = (cells.lower, cells.upper), outer, wanted, depth, evidence, beams.outliers, tables, headings, (lower, upper), kept
-            run(_refine, len(edges) - 1, (order, edges), *bounds, minimum=4)
+            of_map = sections[key].occupied.cells, sections[key].domain.cells
+            of_cells = _Cells(cells.lower, cells.upper, outer, wanted)
+            run(_refine, len(edges) - 1, layers, of_cells, beams.evidence, *of_map, trees, refined, minimum=4)
         if np.count_nonzero(kept) in (0, before):
             break
         faces = outer.copy()
@@ -217,10 +264,10 @@ def mend(cells: Boxes, lattice: Lattice, refined: Boxes, kept: npt.NDArray[np.bo
     lower, upper, kept = refined.lower, refined.upper, kept.copy()
     turns = (lattice.layer(cells) - lattice.layer(whole.hulls)[labels]) % lattice.layers
     for label in torn:
-        found = kept & (labels == label)
-        low, high = lower[found].min(axis=0), upper[found].max(axis=0)
-        first, last = turns[found].min(), turns[found].max()
-        low[2], high[2] = lower[found & (turns == first), 2].min(), upper[found & (turns == last), 2].max()
+        own = kept & (labels == label)
+        low, high = lower[own].min(axis=0), upper[own].max(axis=0)
+        first, last = turns[own].min(), turns[own].max()
+        low[2], high[2] = lower[own & (turns == first), 2].min(), upper[own & (turns == last), 2].max()
         rows = np.flatnonzero((labels == label) & (first <= turns) & (turns <= last))
         lowest, highest = np.tile(low, (len(rows), 1)), np.tile(high, (len(rows), 1))
         lowest[turns[rows] != first, 2], highest[turns[rows] != last, 2] = -np.inf, np.inf

@@ -106,14 +106,14 @@ def _number(ranges, layers, low_y, low_x, numbers):  # type: ignore[no-untyped-d
             for y in range(ranges[row, 2] // BITMAP_ROWS - low_y, ranges[row, 3] // BITMAP_ROWS - low_y + 1):
                 for x in range(ranges[row, 0] // BITMAP_COLUMNS - low_x, ranges[row, 1] // BITMAP_COLUMNS - low_x + 1):
                     numbers[turn % layers, y, x] = 0
-    found = 0
+    count = 0
     for layer in range(layers):
         for y in range(numbers.shape[1]):
             for x in range(numbers.shape[2]):
                 if numbers[layer, y, x] == 0:
-                    numbers[layer, y, x] = found
-                    found += 1
-    return found
+                    numbers[layer, y, x] = count
+                    count += 1
+    return count
 
 
 @kernel
@@ -156,7 +156,7 @@ def filled_bitmaps(ranges: IntArray, layers: int) -> CellBitmaps:
         return CellBitmaps(np.empty((0, 3), dtype=np.int64), np.empty((0, BITMAP_ROWS), dtype=np.uint64))
     low_y, low_x, rows, columns = _spread(ranges)
     numbers = np.full((layers, rows, columns), -1, dtype=np.int32)
-    found = _number(ranges, layers, low_y, low_x, numbers)
-    keys, words = np.empty((found, 3), dtype=np.int64), np.zeros((found, BITMAP_ROWS), dtype=np.uint64)
+    count = _number(ranges, layers, low_y, low_x, numbers)
+    keys, words = np.empty((count, 3), dtype=np.int64), np.zeros((count, BITMAP_ROWS), dtype=np.uint64)
     _fill(ranges, low_y, low_x, numbers, keys, words)
     return CellBitmaps(keys, words)

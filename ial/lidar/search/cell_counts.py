@@ -6,24 +6,55 @@ and so on down to half a layer. Most cells of a prediction fail at once for seve
 
 import functools
 import math
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
+from ial.contractors.boxes import FloatArray
 from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 from ial.lidar.evidence.beams import Beams
 from ial.lidar.evidence.end_points import relative_bounds
 from ial.lidar.margins import MOST_BEAMS
-from ial.lidar.search.bitmap_counts import count_bitmap, list_segments, place, working_space
-from ial.lidar.search.cell_bitmaps import BITMAP_COLUMNS, BITMAP_ROWS, CellBitmaps, WordArray
+from ial.lidar.search.bitmap_counts import count_bitmap, line_tables, list_segments, place, working_space
+from ial.lidar.search.cell_bitmaps import BITMAP_COLUMNS, BITMAP_ROWS, CellBitmaps, IntArray, WordArray
 from ial.lidar.search.lattice import Lattice, layer_edges
-from ial.maps.grids.cell_index import BORDER, CellIndex
+from ial.maps.grids.cell_index import CellIndex
+from ial.maps.grids.cell_table import CellTable
 
 LARGEST_COUNT = 2 * MOST_BEAMS
 
 _LEVELS = 3  # blocks of 2³ layers: 11° with the default precision
 _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
+
+
+class _Bitmaps(NamedTuple):
+    """Bitmaps in an order: those of run i are order[runs[i]] … order[runs[i + 1] - 1]. See `CellBitmaps` for keys and words."""
+
+    runs: IntArray
+    order: IntArray
+    keys: IntArray
+    words: WordArray
+
+
+class _Headings(NamedTuple):
+    """How many times blocks of layers are halved down to layers, and the boundaries of all half layers."""
+
+    levels: int
+    edges: FloatArray
+
+
+class _Ground(NamedTuple):
+    """The cells that beams may end at and those in which the robot may be, and how the lattice lies on them.
+
+    A cell of the lattice has so many parts along an axis, which drift by so much from the cells of the tables on the way across the map.
+    """
+
+    occupied: CellTable
+    domain: CellTable
+    parts: int
+    drift: float
 
 
 @kernel
@@ -39,36 +70,48 @@ def _without(words, least, most, left):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _place_node(node, half_layers, first, edges, evidence, map_error, grid, bounds, places):  # type: ignore[no-untyped-def]
+def _place_node(node, block, headings, evidence, ground, bounds, places):  # type: ignore[no-untyped-def]
     """Write which table corners belong to each beam, for the headings of a node of the tree over a block."""
-    ends, directions, errors = evidence
-    resolution, drift = grid[:2]
-    across = half_layers
+    across = half_layers = 2 << headings.levels
     level = 1
     while level <= node >> 1:  # a level further down, intervals are half as wide
         level <<= 1
         across >>= 1
-    at = first + (node - level) * across
-    relative_bounds(edges[at], edges[at + across], ends, directions, errors, map_error, resolution, bounds)
-    place(bounds, drift, places)
+    at = half_layers * block + (node - level) * across
+    relative_bounds(headings.edges[at], headings.edges[at + across], evidence, ground.occupied.resolution, bounds)
+    place(bounds, ground.drift, places)
 
 
 @kernel
-def _count(start, stop, runs, order, keys, words, levels, edges, parts, evidence, most, map_error, grid, kept, least):  # type: ignore[no-untyped-def]
+def _count(start, stop, bitmaps, headings, evidence, ground, kept, least):  # type: ignore[no-untyped-def]
     """Count the failing beams for runs of bitmaps, which share their place and a block of 2**levels layers.
 
     The headings of a block form a tree, numbered as a heap: node 1 is the block, nodes 2n and 2n + 1 are the halves of node n, and below
     the layers lie half layers.
+
+    Parameters
+    ----------
+    bitmaps
+        `_Bitmaps`.
+    headings
+        `_Headings`.
+    evidence
+        The `Evidence` of the scan, its beams in the order in which they are tried.
+    ground
+        `_Ground`.
+    kept, least
+        Where to write what `count_cells` returns.
     """
-    table, domain, row_origin, column_origin = grid[2:]
-    limits = (table.shape[0] - 1, table.shape[1] - 1 - 2 * BORDER)
-    tables = (table.reshape(-1), domain.reshape(-1), table.shape[1], limits)
-    beams = len(evidence[0])
+    runs, order, keys, words = bitmaps
+    levels, parts, most = headings.levels, ground.parts, evidence.outliers
+    row_origin, column_origin = ground.occupied.origin
+    tables = line_tables(ground.occupied.bordered, ground.domain.bordered)
+    beams = len(evidence.ends)
     layers = 1 << levels
     bounds = np.empty((beams, 4))
     places = np.empty((4 * layers, beams, 4), dtype=np.int64)
     placed = np.zeros(4 * layers, dtype=np.bool_)
-    segments, counts = working_space(parts)
+    space = working_space(parts)
     above = np.empty((BITMAP_ROWS, BITMAP_COLUMNS), dtype=np.int16)
     left = np.empty((levels + 2, BITMAP_ROWS), dtype=np.uint64)  # what the nodes above a layer have left
     left[0, :] = ~np.uint64(0)
@@ -79,8 +122,10 @@ def _count(start, stop, runs, order, keys, words, levels, edges, parts, evidence
         if keys[bitmap, 0] >> levels != block:
             block = keys[bitmap, 0] >> levels
             placed[:] = False
-        row0 = keys[bitmap, 1] * BITMAP_ROWS * parts - row_origin
-        column0 = keys[bitmap, 2] * BITMAP_COLUMNS * parts - column_origin
+        corner = (
+            keys[bitmap, 1] * BITMAP_ROWS * parts - row_origin,
+            keys[bitmap, 2] * BITMAP_COLUMNS * parts - column_origin,
+        )
         nodes[:] = 0
         for at in range(runs[number], runs[number + 1]):
             bitmap = order[at]
@@ -101,21 +146,21 @@ def _count(start, stop, runs, order, keys, words, levels, edges, parts, evidence
                             left[level + 1, y] |= words[order[other], y] & left[level, y]
                 if alike > 1 or level == levels:
                     if not placed[node]:
-                        _place_node(node, 2 * layers, 2 * layers * block, edges, evidence, map_error, grid, bounds, places[node])
+                        _place_node(node, block, headings, evidence, ground, bounds, places[node])
                         placed[node] = True
-                    found = list_segments(left[level + 1], row0, column0, parts, segments)
+                    listed = list_segments(left[level + 1], corner, parts, space.segments)
                     above[:, :] = LARGEST_COUNT
-                    count_bitmap(segments, found, row0, column0, parts, places[node], most, tables, counts, above)
+                    count_bitmap(space, listed, corner, parts, places[node], most, tables, above)
                     _without(left[level + 1], above, most, left[level + 1])
-            found = list_segments(left[levels + 1], row0, column0, parts, segments)
-            if not found:
+            listed = list_segments(left[levels + 1], corner, parts, space.segments)
+            if not listed:
                 continue
             for node in range(2 * leaf, 2 * leaf + 2):
                 if not placed[node]:
-                    _place_node(node, 2 * layers, 2 * layers * block, edges, evidence, map_error, grid, bounds, places[node])
+                    _place_node(node, block, headings, evidence, ground, bounds, places[node])
                     placed[node] = True
-                found = list_segments(left[levels + 1], row0, column0, parts, segments)
-                count_bitmap(segments, found, row0, column0, parts, places[node], most, tables, counts, least[bitmap])
+                listed = list_segments(left[levels + 1], corner, parts, space.segments)
+                count_bitmap(space, listed, corner, parts, places[node], most, tables, least[bitmap])
             _without(left[levels + 1], least[bitmap], most, kept[bitmap])
 
 
@@ -149,35 +194,18 @@ def count_cells(
         For each cell that is left, a number that does not exceed the number of bad beams at any pose in it; int16 of shape (n, 16, 64).
     """
     kept, least = np.empty_like(bitmaps.words), np.empty((len(bitmaps.words), BITMAP_ROWS, BITMAP_COLUMNS), dtype=np.int16)
-    row_origin, column_origin = occupied.origin
     # A part is a little wider than a cell, since its width has 24 bits: so much further right, at most, do the last columns of the map lie.
     # It is that of the whole map for all of its parts, so that they give the same answers. `MARGIN` covers what is rounded here.
     farthest = max(occupied.whole) + BITMAP_COLUMNS * lattice.parts
-    drift = farthest * max(lattice.part_m / occupied.resolution - 1.0, 0.0)
+    drift = farthest * max(lattice.part_m / occupied.cells.resolution - 1.0, 0.0)
     order = _spread_order(len(beams.ends))
-    evidence = (beams.ends[order], beams.directions[order], beams.errors[order])
-    grid = (occupied.resolution, drift, occupied.bordered, domain.bordered, row_origin, column_origin)
-    edges = layer_edges(2 * lattice.layers)
+    evidence = beams.evidence._replace(ends=beams.ends[order], directions=beams.directions[order], errors=beams.errors[order])
     levels = min(_LEVELS, lattice.layers.bit_length() - 1)
+    headings = _Headings(levels, layer_edges(2 * lattice.layers))
+    ground = _Ground(occupied.cells, domain.cells, lattice.parts, drift)
     places = bitmaps.keys >> np.array([levels, 0, 0])
     order = np.lexsort((bitmaps.keys[:, 0], *places.T[::-1]))
     runs = np.flatnonzero(np.append(True, (np.diff(places[order], axis=0) != 0).any(axis=1))[: len(order)])
-    run(
-        _count,
-        len(runs),
-        np.append(runs, len(order)),
-        order,
-        bitmaps.keys,
-        bitmaps.words,
-        levels,
-        edges,
-        lattice.parts,
-        evidence,
-        beams.outliers,
-        beams.map_error_m,
-        grid,
-        kept,
-        least,
-        minimum=2,
-    )
+    in_runs = _Bitmaps(np.append(runs, len(order)), order, bitmaps.keys, bitmaps.words)
+    run(_count, len(runs), in_runs, headings, evidence, ground, kept, least, minimum=2)
     return kept, least

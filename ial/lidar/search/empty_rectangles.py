@@ -17,13 +17,15 @@ LANES = 8
 _INT32 = ir.IntType(32)
 
 
-def _count_empty_python(table: Any, above_right: Any, above_left: Any, below_right: Any, below_left: Any, counts: Any, at: Any) -> None:
+def _count_empty_rectangles_python(
+    table: Any, above_right: Any, above_left: Any, below_right: Any, below_left: Any, counts: Any, at: Any
+) -> None:
     one, two, three, four = (table[corner : corner + LANES] for corner in (above_right, above_left, below_right, below_left))
     counts[at : at + LANES] += one - two - three + four == 0
 
 
-@intrinsic(_count_empty_python)
-def count_empty(typingctx, table, above_right, above_left, below_right, below_left, counts, at):  # type: ignore[no-untyped-def]
+@intrinsic(_count_empty_rectangles_python)
+def count_empty_rectangles(typingctx, table, above_right, above_left, below_right, below_left, counts, at):  # type: ignore[no-untyped-def]
     """Add 1 to each of ``counts[at : at + 8]`` whose rectangle holds no cell of the set.
 
     Parameters

@@ -8,6 +8,7 @@ from a cell to one of its four neighbours, and a ray through the corner of an oc
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -23,8 +24,11 @@ from ial.lidar.evidence.beams import Beams
 from ial.lidar.evidence.end_points import relative_bounds
 from ial.lidar.margins import MARGIN, NEAR
 from ial.lidar.search.bit_columns import BitColumns, read_bits
-from ial.lidar.search.rectangle_indices import OFFSET, rectangle_indices
-from ial.maps.grids.cell_index import BORDER, CellIndex
+from ial.lidar.search.flat_table import ends_nowhere, flat_table
+from ial.lidar.search.rectangle_indices import OFFSET
+from ial.lidar.search.table_coordinates import in_cells
+from ial.maps.grids.cell_index import CellIndex
+from ial.maps.grids.cell_table import CellTable
 
 _STEEPEST = 0.55  # a ray runs along an axis if its cosine with it is above this at both ends of its interval
 _CHUNK = 16  # columns that are passed at once where the strip is free
@@ -32,12 +36,34 @@ _WIDEST_TURN = 0.5  # radians; a slope has bounds only where no pole of the tang
 _WIDEST = 64  # rows of a strip: the bits of a word
 
 
+class BlockingCells(NamedTuple):
+    """The occupied cells: their table, and themselves packed along both axes; see `BitColumns`."""
+
+    cells: CellTable
+    upwards: npt.NDArray[np.uint64]
+    rightwards: npt.NDArray[np.uint64]
+
+
+class _Strip(NamedTuple):
+    """Rays side by side: along them runs the coordinate a, across them b.
+
+    They start between the lows and the highs, and rise along b by a slope for each step along a.
+    """
+
+    a_low: float
+    a_high: float
+    b_low: float
+    b_high: float
+    slope_low: float
+    slope_high: float
+
+
 @kernel
-def _strip(k, la_low, la_high, lb_low, lb_high, slope_low, slope_high):  # type: ignore[no-untyped-def]
+def _rows_met(strip, k):  # type: ignore[no-untyped-def]
     """Return the first and the last row that a strip meets between the lines k and k + 1."""
-    near, far = k - la_high, k + 1 - la_low
-    low = lb_low + slope_low * (near if slope_low >= 0.0 else far)
-    high = lb_high + slope_high * (far if slope_high >= 0.0 else near)
+    near, far = k - strip.a_high, k + 1 - strip.a_low
+    low = strip.b_low + strip.slope_low * (near if strip.slope_low >= 0.0 else far)
+    high = strip.b_high + strip.slope_high * (far if strip.slope_high >= 0.0 else near)
     return int(np.floor(low - MARGIN)), int(np.floor(high + MARGIN))
 
 
@@ -52,40 +78,38 @@ def _spread(reached, free):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _cut(la_low, la_high, lb_low, lb_high, slope_low, slope_high, first, last, sign, lines, count):  # type: ignore[no-untyped-def]
+def _cut(strip, first, last, sign, columns_along, blocking):  # type: ignore[no-untyped-def]
     """Return whether occupied cells cut a strip between the lines `first` and `last` + 1.
-
-    Along the strip runs the coordinate a, across it b; `sign` tells which way a counts the lines of the map.
 
     Parameters
     ----------
-    la_low, la_high, lb_low, lb_high
-        Where the rays start.
-    slope_low, slope_high
-        How far they rise along b for each step along a.
-    lines
-        The occupied cells, packed along b.
-    count
-        (table, along): the summed-area table, and whether a is its column axis.
+    strip
+        The `_Strip`.
+    first, last, sign
+        Lines of the map, and which way a counts them.
+    columns_along
+        Whether they are its columns.
+    blocking
+        The `BlockingCells`.
     """
-    table, columns_along = count
+    table, lines = blocking.cells.table, blocking.upwards if columns_along else blocking.rightwards
     reached = np.uint64(0)
     started = False
     base = 0
     k = first
     while k <= last:
-        low, high = _strip(k, la_low, la_high, lb_low, lb_high, slope_low, slope_high)
+        low, high = _rows_met(strip, k)
         if high - low >= _WIDEST:
             return False
         until = min(k + _CHUNK - 1, last)
-        end_low, end_high = _strip(until, la_low, la_high, lb_low, lb_high, slope_low, slope_high)
+        end_low, end_high = _rows_met(strip, until)
         a0, a1 = (k, until + 1) if sign > 0 else (-until - 1, -k)
         if _free(table, columns_along, a0, a1, min(low, end_low), max(high, end_high) + 1):
             started = False  # every row can be reached again
             k = until + 1
             continue
         while k <= until:
-            low, high = _strip(k, la_low, la_high, lb_low, lb_high, slope_low, slope_high)
+            low, high = _rows_met(strip, k)
             if high - low >= _WIDEST:
                 return False
             within = ~np.uint64(0) >> np.uint64(_WIDEST - 1 - (high - low))
@@ -117,7 +141,7 @@ def _free(table, columns_along, a0, a1, b0, b1):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def blocked(box, laser, ray, margin, table, upwards, rightwards):  # type: ignore[no-untyped-def]
+def blocked(box, laser, ray, margin, blocking):  # type: ignore[no-untyped-def]
     """Return whether a ray is certainly blocked from everywhere in a box; lengths in cells.
 
     Parameters
@@ -128,7 +152,12 @@ def blocked(box, laser, ray, margin, table, upwards, rightwards):  # type: ignor
         Bounds ul, uu, vl, vu of the laser's position relative to it.
     ray
         Cosine and sine at the lower and at the upper end of its direction in the map, each wrong by less than 2^-53, and its length.
+    margin
+        How far beside it rays must be blocked, too.
+    blocking
+        The `BlockingCells`.
     """
+    table = blocking.cells.table
     c0, s0, c1, s1, length = ray
     margin += MARGIN
     if min(abs(c0), abs(c1)) >= _STEEPEST and c0 * c1 > 0.0:
@@ -157,31 +186,28 @@ def blocked(box, laser, ray, margin, table, upwards, rightwards):  # type: ignor
     last = int(min(math.floor(la_low + length * smallest - margin) - 1.0, float(highest)))
     slope_low = min(first_slope, second_slope) - ROUNDINGS
     slope_high = max(first_slope, second_slope) + ROUNDINGS
-    lines = upwards if along else rightwards
-    return _cut(la_low, la_high, lb_low - wide, lb_high + wide, slope_low, slope_high, first, last, sign, lines, (table, along))
+    strip = _Strip(la_low, la_high, lb_low - wide, lb_high + wide, slope_low, slope_high)
+    return _cut(strip, first, last, sign, along, blocking)
 
 
 @kernel
-def _block_rows(start, stop, order, lower, upper, parts, hits, rays, grid, least):  # type: ignore[no-untyped-def]
-    ends, directions, errors, map_error = hits
+def _block_rows(start, stop, order, lower, upper, evidence, rays, parts, blocking, least):  # type: ignore[no-untyped-def]
     origins, angles, turns, lengths, numbers, margins = rays
-    resolution, bordered, table, origin, upwards, rightwards = grid
-    flat = bordered.reshape(-1)[BORDER:]
-    stride = np.uint64(bordered.shape[1])
-    row_limit, column_limit = np.int32(table.shape[0] - 1), np.int32(table.shape[1] - 1)
+    resolution, origin, table = blocking.cells.resolution, blocking.cells.origin, flat_table(blocking.cells.bordered)
+    beams = len(evidence.ends)
     count = len(angles)
     headings = np.empty((count, 5))
     lasers = np.empty((count, 4))
-    bounds = np.empty((2, len(ends), 4))
-    barred = np.empty(len(ends), dtype=np.bool_)
+    bounds = np.empty((2, beams, 4))
+    barred = np.empty(beams, dtype=np.bool_)
     theta_lower, theta_upper = np.nan, np.nan
     for at in range(start, stop):
         row = order[at]
         if lower[row, 2] != theta_lower or upper[row, 2] != theta_upper:
             theta_lower, theta_upper = lower[row, 2], upper[row, 2]
             middle = theta_lower + 0.5 * (theta_upper - theta_lower)
-            relative_bounds(theta_lower, middle, ends, directions, errors, map_error, resolution, bounds[0])
-            relative_bounds(middle, theta_upper, ends, directions, errors, map_error, resolution, bounds[1])
+            relative_bounds(theta_lower, middle, evidence, resolution, bounds[0])
+            relative_bounds(middle, theta_upper, evidence, resolution, bounds[1])
             sl, cl = sincos(theta_lower)
             su, cu = sincos(theta_upper)
             for i in range(count):
@@ -194,63 +220,42 @@ def _block_rows(start, stop, order, lower, upper, parts, hits, rays, grid, least
                 headings[i, 4] = lengths[i] / resolution - MARGIN
                 near = min(lasers[i, 0], lasers[i, 2]) >= -NEAR and max(lasers[i, 1], lasers[i, 3]) <= NEAR
                 if not near or theta_upper - theta_lower + 2.0 * turn > _WIDEST_TURN:
-                    headings[i, :4] = 0.0  # along no axis: such a ray is never found to be blocked
-        xl, yl = lower[row, 0] / resolution - origin[1], lower[row, 1] / resolution - origin[0]
-        xu, yu = upper[row, 0] / resolution - origin[1], upper[row, 1] / resolution - origin[0]
-        if min(xl, yl) < -NEAR or max(xu, yu) > NEAR or theta_upper - theta_lower > _WIDEST_TURN:
+                    headings[i, :4] = 0.0  # along no axis: such a ray is never counted as blocked
+        xl, yl, xu, yu, near = in_cells(lower[row, 0], lower[row, 1], upper[row, 0], upper[row, 1], resolution, origin)
+        if not near or theta_upper - theta_lower > _WIDEST_TURN:
             continue
         box = (xl - MARGIN, yl - MARGIN, xu + MARGIN, yu + MARGIN)
         barred[:] = False
-        alone = found = 0
+        alone = blocked_rays = 0
         for i in range(count):
             ray = (headings[i, 0], headings[i, 1], headings[i, 2], headings[i, 3], headings[i, 4])
             laser = (lasers[i, 0], lasers[i, 1], lasers[i, 2], lasers[i, 3])
-            if blocked(box, laser, ray, margins[i] / resolution, table, upwards, rightwards):
-                found += 1
+            if blocked(box, laser, ray, margins[i] / resolution, blocking):
+                blocked_rays += 1
                 if numbers[i] >= 0:
                     barred[numbers[i]] = True
                 else:
                     alone += 1
-        if found:
+        if blocked_rays:
             fewest = np.int64(1) << 30
             wide = (xu - xl) / parts
             high = (yu - yl) / parts
             for part in range(2 * parts * parts):
                 half, place = part % 2, part // 2
                 left, below = xl + (place % parts) * wide - MARGIN, yl + (place // parts) * high - MARGIN
-                fewest = min(
-                    fewest,
-                    alone
-                    + _bad(
-                        left,
-                        below,
-                        left + wide + 2.0 * MARGIN,
-                        below + high + 2.0 * MARGIN,
-                        bounds[half],
-                        barred,
-                        flat,
-                        stride,
-                        row_limit,
-                        column_limit,
-                    ),
-                )
+                right, above = left + wide + 2.0 * MARGIN, below + high + 2.0 * MARGIN
+                fewest = min(fewest, alone + _bad(table, bounds[half], barred, left, below, right, above))
             least[row] = max(least[row], fewest)
 
 
 @kernel
-def _bad(xl, yl, xu, yu, bounds, barred, flat, stride, row_limit, column_limit):  # type: ignore[no-untyped-def]
-    """Return how many beams fail from a box: those that are barred, and those that meet no occupied cell."""
+def _bad(table, bounds, barred, xl, yl, xu, yu):  # type: ignore[no-untyped-def]
+    """Return how many beams fail from a box: those that are barred, and those that meet no occupied cell of a `FlatTable`."""
+    xl, yl = xl + OFFSET, yl + OFFSET
+    xu, yu = xu + (OFFSET + 1.0), yu + (OFFSET + 1.0)
     failed = 0
     for i in range(len(bounds)):
-        if barred[i]:
-            failed += 1
-            continue
-        left, below, right, above = rectangle_indices(
-            bounds, i, xl + OFFSET, yl + OFFSET, xu + (OFFSET + 1.0), yu + (OFFSET + 1.0), column_limit, row_limit
-        )
-        low, high = np.uint64(below) * stride, np.uint64(above) * stride
-        near, far = np.uint64(left), np.uint64(right)
-        failed += flat[high + far] - flat[low + far] - flat[high + near] + flat[low + near] == 0
+        failed += 1 if barred[i] else ends_nowhere(table, bounds, i, xl, yl, xu, yu)
     return failed
 
 
@@ -282,8 +287,7 @@ def count_blocked(
     if rays is None or not len(rays):
         return least
     order = group_rows(boxes.lower[:, 2], boxes.upper[:, 2])
-    hits = (beams.ends, beams.directions, beams.errors, beams.map_error_m)
-    evidence = (rays.origins, rays.angles, rays.turns, rays.lengths, rays.beams, rays.margins)
-    grid = (occupied.resolution, occupied.bordered, occupied.table, occupied.origin, bits.upwards, bits.rightwards)
-    run(_block_rows, len(boxes), order, boxes.lower, boxes.upper, parts, hits, evidence, grid, counted, minimum=16)
+    paths = (rays.origins, rays.angles, rays.turns, rays.lengths, rays.beams, rays.margins)
+    blocking = BlockingCells(occupied.cells, bits.upwards, bits.rightwards)
+    run(_block_rows, len(boxes), order, boxes.lower, boxes.upper, beams.evidence, paths, parts, blocking, counted, minimum=16)
     return np.minimum(counted, np.iinfo(np.int16).max).astype(np.int16)

@@ -220,15 +220,15 @@ class Sections:
         margin = self._margin + _AROUND
         window = []
         for number, cells in zip(key, (self._grid.rows, self._grid.columns), strict=True):
-            first, behind = (edge * self._side_m / self._grid.resolution for edge in (number, number + 1))
-            window.append(slice(max(0, math.floor(first) - margin), min(cells, math.ceil(behind) + margin)))
+            first, end = (edge * self._side_m / self._grid.resolution for edge in (number, number + 1))
+            window.append(slice(max(0, math.floor(first) - margin), min(cells, math.ceil(end) + margin)))
         return window[0], window[1]
 
     def __getitem__(self, key: Key) -> MapTables:
         """Return a section; it is made if need be, and others may be forgotten."""
         if key not in self._made:
             self._made[key] = self._make(*self._window(key))
-            while len(self._made) > _FEWEST_KEPT and sum(tables.occupied.table.size for tables in self._made.values()) > _KEPT:
+            while len(self._made) > _FEWEST_KEPT and sum(tables.occupied.cells.table.size for tables in self._made.values()) > _KEPT:
                 self._made.popitem(last=False)
         self._made.move_to_end(key)
         return self._made[key]

@@ -39,12 +39,12 @@ def narrow(xl, yl, xu, yu, bounds, q, table, low, high):  # type: ignore[no-unty
         )
         if left >= right or below >= above or count(table, below, above, left, right) == 0:
             continue
-        first, behind = columns_with_cells(table, below, above, left, right)
+        first, end = columns_with_cells(table, below, above, left, right)
         low[0, kept] = max(xl, first - bounds[i, 2])
-        high[0, kept] = min(xu, behind - bounds[i, 0])
-        first, behind = rows_with_cells(table, below, above, left, right)
+        high[0, kept] = min(xu, end - bounds[i, 0])
+        first, end = rows_with_cells(table, below, above, left, right)
         low[1, kept] = max(yl, first - bounds[i, 3])
-        high[1, kept] = min(yu, behind - bounds[i, 1])
+        high[1, kept] = min(yu, end - bounds[i, 1])
         if low[0, kept] <= high[0, kept] and low[1, kept] <= high[1, kept]:
             kept += 1
     x0, x1 = covered(np.sort(low[0, :kept]), np.sort(high[0, :kept]), beams - q)

@@ -62,13 +62,13 @@ def within_budget(reading: Beams, states: Poses, search: Callable[[Beams], Poses
     guess = (before or 0) if len(states) < _MANY else 0  # a large set is what a scan with many bad beams has left: few more come as bad
     most = min(max(guess, 2 * reading.margin), limit)
     while True:
-        found = search(reading.allowing(most))
-        if len(found):
-            needed = most if found.limited else min(found.fewest_bad + reading.margin, limit)
+        poses = search(reading.allowing(most))
+        if len(poses):
+            needed = most if poses.limited else min(poses.fewest_bad + reading.margin, limit)
             if needed <= most:
-                return found.within(needed)
+                return poses.within(needed)
             most = needed
         elif most == limit:
-            return found
+            return poses
         else:
             most = min(2 * most + 1, limit)

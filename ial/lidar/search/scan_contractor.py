@@ -1,7 +1,5 @@
 """The scan as a constraint on the pose: at most q of the used beams may fail to end at an occupied cell."""
 
-from typing import Any
-
 import numpy as np
 import numpy.typing as npt
 
@@ -12,29 +10,26 @@ from ial.contractors.kernels import kernel
 from ial.contractors.threads import run
 from ial.lidar.evidence.beams import Beams
 from ial.lidar.evidence.end_points import relative_bounds
-from ial.lidar.margins import NEAR
+from ial.lidar.search.flat_table import ends_nowhere, flat_table
 from ial.lidar.search.narrowing import narrow
-from ial.lidar.search.rectangle_indices import OFFSET, rectangle_indices
-from ial.maps.grids.cell_index import BORDER, CellIndex
+from ial.lidar.search.rectangle_indices import OFFSET
+from ial.lidar.search.table_coordinates import in_cells
+from ial.maps.grids.cell_index import CellIndex
 
 
 @kernel
-def fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit, order):  # type: ignore[no-untyped-def]
-    """Return whether at most q beams certainly miss every occupied cell from all of a box, whose bounds are given in cells.
+def fits(table, bounds, q, order, xl, yl, xu, yu):  # type: ignore[no-untyped-def]
+    """Return whether at most q beams certainly miss every occupied cell of a `FlatTable` from all of a box, whose bounds are in cells.
 
-    A beam fails if the rectangle of its possible end points meets no occupied cell: four look-ups in the summed-area table. Beams are tried
-    in an order, in which those that fail move to the front: from the next box the same will mostly fail.
+    Beams are tried in an order, in which those that fail move to the front: from the next box the same will mostly fail.
     """
+    xl, yl = xl + OFFSET, yl + OFFSET
+    xu, yu = xu + (OFFSET + 1.0), yu + (OFFSET + 1.0)
     beams = len(bounds)
     failed = 0
     for at in range(beams):
         i = order[at]
-        left, below, right, above = rectangle_indices(bounds, i, xl, yl, xu, yu, column_limit, row_limit)
-        low = np.uint64(below) * stride
-        high = np.uint64(above) * stride
-        near = np.uint64(left)
-        far = np.uint64(right)
-        if flat[high + far] - flat[low + far] - flat[high + near] + flat[low + near] == 0:
+        if ends_nowhere(table, bounds, i, xl, yl, xu, yu):
             order[at], order[failed] = order[failed], i
             failed += 1
             if failed > q:
@@ -45,13 +40,11 @@ def fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit, order
 
 
 @kernel
-def _test(start, stop, order, lower, upper, ends, directions, errors, q, map_error, resolution, bordered, origin, keep):  # type: ignore[no-untyped-def]
-    flat = bordered.reshape(-1)[BORDER:]
-    stride = np.uint64(bordered.shape[1])
-    row_limit = np.int32(bordered.shape[0] - 1)
-    column_limit = np.int32(bordered.shape[1] - 1 - 2 * BORDER)
-    bounds = np.empty((len(ends), 4))
-    beams = np.arange(len(ends))
+def _test(start, stop, order, lower, upper, evidence, occupied, keep):  # type: ignore[no-untyped-def]
+    table = flat_table(occupied.bordered)
+    resolution, origin, q = occupied.resolution, occupied.origin, evidence.outliers
+    bounds = np.empty((len(evidence.ends), 4))
+    beams = np.arange(len(evidence.ends))
     theta_lower = np.nan
     theta_upper = np.nan
     for at in range(start, stop):
@@ -62,26 +55,22 @@ def _test(start, stop, order, lower, upper, ends, directions, errors, q, map_err
         if lower[row, 2] != theta_lower or upper[row, 2] != theta_upper:
             theta_lower = lower[row, 2]
             theta_upper = upper[row, 2]
-            relative_bounds(theta_lower, theta_upper, ends, directions, errors, map_error, resolution, bounds)
-        xl, xu = lower[row, 0] / resolution - origin[1], upper[row, 0] / resolution - origin[1]
-        yl, yu = lower[row, 1] / resolution - origin[0], upper[row, 1] / resolution - origin[0]
-        near = min(xl, yl) >= -NEAR and max(xu, yu) <= NEAR  # elsewhere the indices would not be right, so the box is kept
-        xl, yl = xl + OFFSET, yl + OFFSET
-        xu, yu = xu + (OFFSET + 1.0), yu + (OFFSET + 1.0)
-        keep[row] = not near or fits(xl, yl, xu, yu, bounds, q, flat, stride, row_limit, column_limit, beams)
+            relative_bounds(theta_lower, theta_upper, evidence, resolution, bounds)
+        xl, yl, xu, yu, near = in_cells(lower[row, 0], lower[row, 1], upper[row, 0], upper[row, 1], resolution, origin)
+        keep[row] = not near or fits(table, bounds, q, beams, xl, yl, xu, yu)  # kept where nothing is known
 
 
 @kernel
-def _narrow(start, stop, order, lower, upper, ends, directions, errors, q, map_error, resolution, table, origin):  # type: ignore[no-untyped-def]
-    bounds = np.empty((len(ends), 4))
-    low = np.empty((2, len(ends)))
-    high = np.empty((2, len(ends)))
+def _narrow(start, stop, order, lower, upper, evidence, occupied):  # type: ignore[no-untyped-def]
+    table, resolution, origin, q = occupied.table, occupied.resolution, occupied.origin, evidence.outliers
+    bounds = np.empty((len(evidence.ends), 4))
+    low = np.empty((2, len(evidence.ends)))
+    high = np.empty((2, len(evidence.ends)))
     for at in range(start, stop):
         row = order[at]
-        relative_bounds(lower[row, 2], upper[row, 2], ends, directions, errors, map_error, resolution, bounds)
-        xl, xu = lower[row, 0] / resolution - origin[1], upper[row, 0] / resolution - origin[1]
-        yl, yu = lower[row, 1] / resolution - origin[0], upper[row, 1] / resolution - origin[0]
-        if min(xl, yl) < -NEAR or max(xu, yu) > NEAR:
+        relative_bounds(lower[row, 2], upper[row, 2], evidence, resolution, bounds)
+        xl, yl, xu, yu, near = in_cells(lower[row, 0], lower[row, 1], upper[row, 0], upper[row, 1], resolution, origin)
+        if not near:
             continue
         x0, y0, x1, y1 = narrow(xl, yl, xu, yu, bounds, q, table, low, high)
         # The margin in `bounds` covers the rounding of a bound that has moved; one that has not keeps its bits.
@@ -118,6 +107,7 @@ class ScanContractor:
         self.beams = beams
         self.occupied = occupied
         self._most = min(beams.outliers, len(beams.ends))  # of the beams that end somewhere; those without return say nothing here
+        self._evidence = beams.evidence._replace(outliers=self._most)
 
     def __repr__(self) -> str:
         return f"<ScanContractor of {len(self.beams.ends)} beams, {self._most} of which may be bad>"
@@ -147,19 +137,12 @@ class ScanContractor:
         lower, upper = turned.lower.copy(), turned.upper.copy()
         if self._most < len(self.beams.ends):
             order = np.flatnonzero(keep)
-            cells = (self.occupied.resolution, self.occupied.table, self.occupied.origin)
-            run(_narrow, len(order), order, lower, upper, *self._evidence, *cells, minimum=8)
+            run(_narrow, len(order), order, lower, upper, self._evidence, self.occupied.cells, minimum=8)
         lower[:, 2], upper[:, 2] = boxes.lower[:, 2], boxes.upper[:, 2]
         return Boxes(lower, upper).where(keep & (lower <= upper).all(axis=1))
 
     def _fit(self, boxes: Boxes) -> npt.NDArray[np.bool_]:
         keep = np.empty(len(boxes), dtype=np.bool_)
         order = group_rows(boxes.lower[:, 2], boxes.upper[:, 2])
-        cells = (self.occupied.resolution, self.occupied.bordered, self.occupied.origin)
-        run(_test, len(boxes), order, boxes.lower, boxes.upper, *self._evidence, *cells, keep)
+        run(_test, len(boxes), order, boxes.lower, boxes.upper, self._evidence, self.occupied.cells, keep)
         return keep
-
-    @property
-    def _evidence(self) -> tuple[Any, ...]:
-        beams = self.beams
-        return beams.ends, beams.directions, beams.errors, self._most, beams.map_error_m

@@ -146,7 +146,7 @@ def _places(table: FilterTable) -> tuple[FloatArray, int]:
 
 
 def _topological(arcs: list[list[int]], colours: list[int]) -> list[int]:
-    """Return the states that are on no cycle, each behind all that lead to it."""
+    """Return the states that are on no cycle, each after all that lead to it."""
     waiting = [0] * len(arcs)
     for state, row in enumerate(arcs):
         if colours[state] == 1:

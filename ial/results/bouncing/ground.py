@@ -49,12 +49,12 @@ class BounceGround:
         places
             The rows and the columns of these cells for each environment.
         """
-        found = []
+        grounds = []
         for name, (x, y), (rows, columns) in zip(setting.names, setting.corners, places, strict=True):
             free = np.zeros((rows.max(initial=0) + 1, columns.max(initial=0) + 1), dtype=np.bool_)
             free[rows, columns] = True
-            found.append(cls(name, Raster(free, setting.cell, x, y), False))
-        return found
+            grounds.append(cls(name, Raster(free, setting.cell, x, y), False))
+        return grounds
 
     @property
     def extent(self) -> tuple[float, float, float, float]:

@@ -35,6 +35,9 @@ class BouncePage:
         The width of a panel in inches; by default what suits their number.
     """
 
+    def __repr__(self) -> str:
+        return f"<BouncePage of {len(self.panels)} panels>"
+
     def __init__(self, count: int, shape: float, title: str, remark: str, keys: Sequence[Artist], panel_in: float | None = None) -> None:
         shape = min(max(shape, 0.25), 2.0)
         wanted = math.sqrt(2.2 * count * shape)

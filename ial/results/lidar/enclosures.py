@@ -42,6 +42,11 @@ class Enclosure:
     radius_m: float | None = None
     vanishing: bool = False
 
+    def __repr__(self) -> str:
+        count = len(self.hypotheses)
+        at = "" if self.pose is None else f" around {self.pose}"
+        return f"<Enclosure of scan {self.index}: {self.status}, {count} {'hypothesis' if count == 1 else 'hypotheses'}{at}>"
+
     @classmethod
     def of(cls, step: Step, estimate: Estimate) -> "Enclosure":
         """Return what is kept of an estimate."""

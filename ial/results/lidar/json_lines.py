@@ -27,6 +27,9 @@ class JsonLines(AbstractContextManager["JsonLines"]):
     def __init__(self, path: Path) -> None:
         self._file = path.open("w", encoding="utf-8")
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {self._file.name}>"
+
     def write(self, step: Step, **record: Any) -> None:
         """Write what is to be said about a scan."""
         self._file.write(json_line(step, **record))

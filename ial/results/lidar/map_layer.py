@@ -40,6 +40,9 @@ class MapLayer:
         self._factor = math.ceil(math.sqrt(max(1.0, (row1 - row0) * (column1 - column0) / _CELLS)))
         self._pixels = _COLOURS[_reduced(_ORDER[grid.cells[row0:row1, column0:column1]], self._factor)]
 
+    def __repr__(self) -> str:
+        return f"<MapLayer of {self._grid}>"
+
     @property
     def view(self) -> View:
         """What to show of the map frame, in metres: left, right, bottom, top."""

@@ -57,15 +57,15 @@ def rectangles(boxes: Boxes, limit: int) -> FloatArray:
     while True:
         first = np.floor(lower / size)
         last = np.maximum(np.ceil(upper / size), first + 1.0)
-        found = np.unique(np.concatenate([first, last], axis=1), axis=0)
-        if len(found) <= limit:
-            return np.asarray(found * size + np.tile(corner, 2))
+        distinct = np.unique(np.concatenate([first, last], axis=1), axis=0)
+        if len(distinct) <= limit:
+            return np.asarray(distinct * size + np.tile(corner, 2))
         size *= 2.0
 
 
-def _triangles(found: FloatArray) -> FloatArray:
+def _triangles(rectangles: FloatArray) -> FloatArray:
     """Return two triangles for each rectangle, shape (6 n, 2)."""
-    x0, y0, x1, y1 = found.T
+    x0, y0, x1, y1 = rectangles.T
     return np.stack([x0, y0, x1, y0, x1, y1, x0, y0, x1, y1, x0, y1], axis=1).reshape(-1, 2)
 
 

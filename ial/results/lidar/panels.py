@@ -37,10 +37,10 @@ def draw_track(axes: Axes, layer: MapLayer, track: Track, truth: Sequence[Pose])
     """Draw the hull of every hypothesis of every scan, the path of the localized robot, and the reference if there is one."""
     layer.draw(axes)
     unconfirmed = [each for scan in track.scans for each in scan.hypotheses if each.prediction]
-    found = [(scan.status, each) for scan in track.scans for each in scan.hypotheses if not each.prediction]
+    hypotheses = [(scan.status, each) for scan in track.scans for each in scan.hypotheses if not each.prediction]
     _draw_hulls(axes, unconfirmed, [PREDICTION] * len(unconfirmed), alpha=0.0, zorder=1)
     for certain in (False, True):  # the certain ones above all others
-        rows = [(status, each) for status, each in found if (status == "localized") is certain]
+        rows = [(status, each) for status, each in hypotheses if (status == "localized") is certain]
         colours = [STATUS_COLOURS[status] for status, _ in rows]
         _draw_hulls(axes, [each for _, each in rows], colours, alpha=0.30 if certain else 0.16, zorder=2 + certain)
     pieces = _pieces(track.scans)
@@ -53,7 +53,7 @@ def draw_track(axes: Axes, layer: MapLayer, track: Track, truth: Sequence[Pose])
     last = next((scan.pose for scan in reversed(track.scans) if scan.pose is not None), None)
     if last is not None:
         _draw_robot(axes, last)
-    statuses = {status for status, _ in found}
+    statuses = {status for status, _ in hypotheses}
     keys: list[Key] = [Line2D([], [], color=PATH, linewidth=1.6, label="path")] if pieces else []
     keys += [Line2D([], [], color=TRUTH, linestyle=_DASHES, label="reference")] if truth else []
     keys += [Patch(color=colour, alpha=0.6, label=name) for name, colour in STATUS_COLOURS.items() if name in statuses]

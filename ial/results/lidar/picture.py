@@ -112,6 +112,9 @@ class Picture(AbstractContextManager["Picture"]):
         self._first: Boxes | None = None
         self._scan: tuple[Step, Pose] | None = None
 
+    def __repr__(self) -> str:
+        return f"<Picture of {len(self._track)} scans: {self._path}>"
+
     def add(self, step: Step, estimate: Estimate) -> None:
         """Remember what will be drawn of one scan."""
         self._track.add(Enclosure.of(step, estimate))

@@ -50,6 +50,9 @@ class RecordingFile(AbstractContextManager["RecordingFile"]):
         self._poses = self._written = 0
         self._last_ns = 0
 
+    def __repr__(self) -> str:
+        return f"<RecordingFile: {self._bag.path}>"
+
     def add(self, step: Step, estimate: Estimate) -> None:
         """Write the messages of one scan."""
         bag, stamp = self._bag, step.stamp_ns

@@ -65,6 +65,9 @@ class ResultFolder(AbstractContextManager["ResultFolder"]):
                 f"{self.path}: results cannot be written there ({error.strerror or error}); choose another folder with --out"
             ) from None
 
+    def __repr__(self) -> str:
+        return f"<ResultFolder: {self.path}, {len(self._sinks)} files fed scan by scan>"
+
     def place(self, name: str) -> Path:
         """Return where to write a file that will be called so."""
         return self._hidden / name

@@ -64,6 +64,9 @@ class Summary:
         self.first_localized: int | None = None
         self.last: Enclosure | None = None
 
+    def __repr__(self) -> str:
+        return f"<Summary of {len(self._elapsed)} scans of {self._recording.name}: {self.statuses}>"
+
     @property
     def localized(self) -> bool:
         """Whether the robot was localized at any scan."""
@@ -159,11 +162,11 @@ class Summary:
 
 def _versions() -> dict[str, str | None]:
     """Return the versions of the libraries that results depend on; None for one that is installed under another name."""
-    found: dict[str, str | None] = dict.fromkeys(_LIBRARIES)
+    versions: dict[str, str | None] = dict.fromkeys(_LIBRARIES)
     for name in _LIBRARIES:
         with contextlib.suppress(PackageNotFoundError):
-            found[name] = version(name)
-    return found
+            versions[name] = version(name)
+    return versions
 
 
 def _last(enclosure: Enclosure) -> dict[str, Any]:

@@ -25,6 +25,9 @@ class Track:
         self.statuses: Counter[Status] = Counter()
         self.vanishing = 0
 
+    def __repr__(self) -> str:
+        return f"<Track of {len(self)} scans>"
+
     def __len__(self) -> int:
         """Return the number of all scans."""
         return self.statuses.total()

@@ -21,6 +21,9 @@ class TrajectoryFile(AbstractContextManager["TrajectoryFile"]):
     def __init__(self, path: Path) -> None:
         self._file = path.open("w", encoding="utf-8")
 
+    def __repr__(self) -> str:
+        return f"<TrajectoryFile: {self._file.name}>"
+
     def add(self, step: Step, estimate: Estimate) -> None:
         """Take one scan."""
         if estimate.pose is not None:

@@ -29,8 +29,8 @@ def test_the_partition_is_that_of_moore(data: st.DataObject) -> None:
     row = st.lists(st.integers(0, count - 1), min_size=letters, max_size=letters)
     successors = data.draw(st.lists(row, min_size=count, max_size=count))
     initial = data.draw(st.lists(st.integers(0, 2), min_size=count, max_size=count))
-    found = coarsest_partition(np.array(successors, dtype=np.int32), np.array(initial, dtype=np.int32))
-    assert found.tolist() == twin(successors, initial)  # both number blocks by their first states
+    blocks = coarsest_partition(np.array(successors, dtype=np.int32), np.array(initial, dtype=np.int32))
+    assert blocks.tolist() == twin(successors, initial)  # both number blocks by their first states
 
 
 @pytest.mark.parametrize("made", list(worlds(6)))

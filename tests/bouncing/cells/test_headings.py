@@ -32,8 +32,8 @@ def test_bounds_hold_the_cosine_and_become_narrower(turn: Fraction) -> None:
 
 
 def test_the_rational_cosines_are_those_of_nivens_theorem() -> None:
-    found = {degrees: rational_cosine(Fraction(degrees, 360)) for degrees in range(-360, 720)}
-    for degrees, value in found.items():
+    cosines = {degrees: rational_cosine(Fraction(degrees, 360)) for degrees in range(-360, 720)}
+    for degrees, value in cosines.items():
         assert (value is not None) == (degrees % 60 == 0 or degrees % 90 == 0)
         if value is not None:
             assert math.isclose(value, math.cos(math.radians(degrees)), abs_tol=1e-12)

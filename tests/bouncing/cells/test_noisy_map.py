@@ -108,8 +108,8 @@ def test_the_automaton_is_that_of_the_filter_and_its_size_is_limited() -> None:
 def test_an_impossible_stream_is_a_rejection() -> None:
     model = NoisyModel(noisy(step=Fraction(3), cell=Fraction(1, 2)).graph)
     robot = SetMembershipFilter(model, "restart")
-    found = [robot.update(None, 0) for _ in range(40)]
-    first = next(each for each in found if each is not None)
+    answers = [robot.update(None, 0) for _ in range(40)]
+    first = next(each for each in answers if each is not None)
     assert isinstance(first, Rejection)
     assert first.step >= 6, "the diagonal is 10 m, a step 1.5 m"
     assert len(model.predict(model.universe(), None)) > 0

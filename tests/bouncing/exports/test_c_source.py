@@ -93,10 +93,10 @@ def test_c_steps_as_python_does(small: BounceFilter, compiler: str, restart: boo
     exported = ExportedFilter.of(small, restart=restart)
     program = compiled(compiler, c_header(exported, "room"), REPLAY, tmp_path)
     own, others = own_streams(small), random_streams()
-    found = replayed(program, own + others)
-    assert found == expected(exported.table, own + others)
+    steps = replayed(program, own + others)
+    assert steps == expected(exported.table, own + others)
     assert len(own) == 152 * len(small.setting.names)
-    trapped = np.array([row[2] for row in found])
+    trapped = np.array([row[2] for row in steps])
     assert trapped[: 60 * len(own)].sum() == 0
     random = trapped[60 * len(own) :].reshape(len(others), -1)
     assert random.any(axis=1).sum() > 200
@@ -110,27 +110,27 @@ def test_minimized_filters_have_the_same_colours(corner: BounceFilter, keep: str
     header = c_header(exported, "room")
     assert "places" not in re.sub(r"/\*.*?\*/", "", header, flags=re.DOTALL)
     streams = own_streams(corner) + random_streams()
-    found = replayed(compiled("gcc", header, REPLAY, tmp_path), streams)
-    assert found == expected(exported.table, streams)
+    steps = replayed(compiled("gcc", header, REPLAY, tmp_path), streams)
+    assert steps == expected(exported.table, streams)
     colours = [int(corner.table.colours[state]) for stream in streams for state in corner.table.run(stream)]
     if keep == "localized":
-        assert [row[2:4] for row in found] == [row[2:4] for row in expected(corner.table, streams)]
+        assert [row[2:4] for row in steps] == [row[2:4] for row in expected(corner.table, streams)]
     else:
-        assert [row[1] for row in found] == colours
+        assert [row[1] for row in steps] == colours
 
 
 @pytest.mark.parametrize("compiler", COMPILERS)
 def test_places_are_those_of_the_filter(small: BounceFilter, compiler: str, tmp_path: Path) -> None:
     program = compiled(compiler, c_header(ExportedFilter.of(small), "room"), PLACES, tmp_path)
     setting = small.setting
-    found: dict[int, list[Place]] = {}
+    shown: dict[int, list[Place]] = {}
     for line in subprocess.run([program], capture_output=True, text=True, check=True).stdout.splitlines():
         state, environment, row, column, *headings = map(int, line.split())
         x, y = setting.centre(environment, row, column)
         angles = tuple(setting.headings.angle_deg(each) for each in headings)
-        found.setdefault(state, []).append(Place(setting.names[environment], x, y, angles))
-    assert found == {state: small.where(state) for state in range(len(small.table)) if small.table.is_localized(state)}
-    assert all(sum(len(place.headings_deg) for place in places) == small.table.uncertainty[state] for state, places in found.items())
+        shown.setdefault(state, []).append(Place(setting.names[environment], x, y, angles))
+    assert shown == {state: small.where(state) for state in range(len(small.table)) if small.table.is_localized(state)}
+    assert all(sum(len(place.headings_deg) for place in places) == small.table.uncertainty[state] for state, places in shown.items())
 
 
 def test_merged_headings_are_listed(made: BounceFilter, tmp_path: Path) -> None:

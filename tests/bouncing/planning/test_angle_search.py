@@ -57,12 +57,12 @@ def twin(graphs: list[LabelledGraph]) -> tuple[list[int], int]:
 @pytest.mark.slow
 @pytest.mark.parametrize("free", SMALL)
 def test_every_sequence_equals_brute_force(free: MaskArray) -> None:
-    found = {each.angles_deg: each for each in search_angles([Raster(free)], 4, length=3)}
+    outcomes = {each.angles_deg: each for each in search_angles([Raster(free)], 4, length=3)}
     maps = {Fraction(angle): cell_map(free, angle).graph for angle in (90, 180, 270)}
     tried = [angles for length in (1, 2, 3) for angles in product(maps, repeat=length) if all(map(Fraction.__ne__, angles, angles[1:]))]
-    if min(each.mean for each in found.values()) > 1:
-        assert set(found) == set(tried)
-    for angles, each in found.items():
+    if min(each.mean for each in outcomes.values()) > 1:
+        assert set(outcomes) == set(tried)
+    for angles, each in outcomes.items():
         ends, most = twin([maps[angle] for angle in angles])
         assert (each.least, each.worst, each.mean) == (min(ends), max(ends), Fraction(sum(ends), len(ends)))
         assert each.observations == most
@@ -87,7 +87,7 @@ def test_one_angle_says_what_its_automaton_says() -> None:
         sizes = known.uncertainty(map_.graph)
         assert (sizes.min(), sizes.max()) == (automaton.cycles.uncertainty.min(), automaton.cycles.uncertainty.max())
         assert known.elapsed.max() == automaton.depth
-        assert known.behind.sum() == map_.graph.configurations
+        assert known.weights.sum() == map_.graph.configurations
 
 
 def test_merged_headings_change_nothing() -> None:
@@ -99,8 +99,8 @@ def test_merged_headings_change_nothing() -> None:
 
 
 def test_a_change_of_the_angle_tells_more() -> None:
-    found = search_angles([Raster(drawn("..... .#... ..... .....")), Raster(STORE)], 8, length=2)
-    best, single = found[0], min((each for each in found if len(each.angles_deg) == 1), key=lambda each: each.rank)
+    outcomes = search_angles([Raster(drawn("..... .#... ..... .....")), Raster(STORE)], 8, length=2)
+    best, single = outcomes[0], min((each for each in outcomes if len(each.angles_deg) == 1), key=lambda each: each.rank)
     assert len(best.angles_deg) == 2
     assert (best.worst, best.mean) < (single.worst, single.mean)
 
@@ -149,5 +149,5 @@ def test_a_phase_begins_in_any_set() -> None:
     for number in range(len(ends)):
         members = frozenset(ends.members[ends.starts[number] : ends.starts[number + 1]].tolist())
         assert comes_back(graph, members)
-    assert ends.behind.sum() == len(held)
+    assert ends.weights.sum() == len(held)
     assert ends.elapsed.min() >= 5

@@ -43,19 +43,19 @@ def test_without_any_source_the_defaults_hold() -> None:
 def test_what_is_written_reads_back_to_the_last_bit(tmp_path_factory: pytest.TempPathFactory, config: LocalizerConfig) -> None:
     file = tmp_path_factory.mktemp("config") / "config.yaml"
     file.write_text(config_yaml(config))
-    found = resolve(file, environment={})
-    assert found == config
-    assert type(found.outliers) is type(config.outliers)
+    read = resolve(file, environment={})
+    assert read == config
+    assert type(read.outliers) is type(config.outliers)
 
 
 def test_the_command_line_wins_over_the_environment_that_over_the_file(tmp_path: Path) -> None:
     file = tmp_path / "config.yaml"
     file.write_text("outliers: 1\nmax_beams: 11\nmap_error_m: 0.11\nmotion: {translation: {per_scan: 0.5}}\n")
     environment = {"IAL_OUTLIERS": "2", "IAL_MAX_BEAMS": "22", "IAL_MOTION_TRANSLATION_PER_METRE": "0.25", "IAL_THREADS": "1"}
-    found = resolve(file, ["max_beams=33"], environment, outliers="3", domain=None)
-    assert (found.outliers, found.max_beams, found.bounds.map_error_m) == (3, 33, 0.11)
+    config = resolve(file, ["max_beams=33"], environment, outliers="3", domain=None)
+    assert (config.outliers, config.max_beams, config.bounds.map_error_m) == (3, 33, 0.11)
     defaults = LocalizerConfig().bounds.motion
-    assert found.bounds.motion == MotionBounds(replace(defaults.translation, per_scan=0.5, per_metre=0.25), defaults.rotation)
+    assert config.bounds.motion == MotionBounds(replace(defaults.translation, per_scan=0.5, per_metre=0.25), defaults.rotation)
     assert resolve(file, [], environment).outliers == 2
 
 
@@ -82,17 +82,17 @@ def test_lidars_may_have_errors_of_their_own(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("text", "value"), [("7", 7), ("0.25", 0.25), ("1", 1), ("1.0", 1.0), ("0", 0), ("1e-1", 0.1)])
 def test_a_number_of_outliers_and_a_fraction_stay_apart(text: str, value: float) -> None:
-    for found in (resolve(environment={}, outliers=text), resolve(settings=[f"outliers={text}"], environment={})):
-        assert found.outliers == value
-        assert type(found.outliers) is type(value)
+    for config in (resolve(environment={}, outliers=text), resolve(settings=[f"outliers={text}"], environment={})):
+        assert config.outliers == value
+        assert type(config.outliers) is type(value)
 
 
 def test_yaml_writes_of_numbers_that_yaml_takes_for_text(tmp_path: Path) -> None:
     file = tmp_path / "config.yaml"
     file.write_text("range_error_m: 1e-3\nlocalized_size: {heading_rad: 1}\n")
-    found = resolve(file, environment={})
-    assert (found.bounds.range_error_m, found.localized_size.heading_rad) == (1e-3, 1.0)
-    assert math.isclose(found.localized_size.position_m, LocalizerConfig().localized_size.position_m)
+    config = resolve(file, environment={})
+    assert (config.bounds.range_error_m, config.localized_size.heading_rad) == (1e-3, 1.0)
+    assert math.isclose(config.localized_size.position_m, LocalizerConfig().localized_size.position_m)
 
 
 def test_an_empty_file_changes_nothing(tmp_path: Path) -> None:

@@ -84,8 +84,8 @@ def test_threads_change_nothing(ial: Callable[..., Any], tmp_path: Path) -> None
 @pytest.mark.slow
 def test_a_known_start_narrows_the_first_answer(ial: Callable[..., Any], tmp_path: Path) -> None:
     ial("localize", "--out", "all", "--to", 1)
-    found = bounds_of(tmp_path / "all")[0][3][0]
-    at = [0.5 * sum(found.x), 0.5 * sum(found.y), 0.5 * sum(found.theta)]
+    first = bounds_of(tmp_path / "all")[0][3][0]
+    at = [0.5 * sum(first.x), 0.5 * sum(first.y), 0.5 * sum(first.theta)]
     for turns in (0, -1, 100):
         start = (*at[:2], at[2] + 2.0 * math.pi * turns)
         ial("localize", "--out", f"near{turns}", "--to", 1, "--initial", *start, "--initial-radius", 0.4, 0.3)

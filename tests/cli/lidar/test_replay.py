@@ -17,9 +17,9 @@ def _own_threads(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_the_embedded_recording_is_answered_scan_by_scan(ial: Callable[..., Any]) -> None:
     result = ial("replay", "--json", "--set", "precision.position_m=0.2")
     assert result.exit_code == 0
-    found = json.loads(result.stdout)
-    assert (found["scans"], found["late"], found["limited"]) == (37, 0, 0)
-    assert 0.0 < found["latency"]["median_s"] <= found["latency"]["p99_s"] <= found["latency"]["max_s"]
+    content = json.loads(result.stdout)
+    assert (content["scans"], content["late"], content["limited"]) == (37, 0, 0)
+    assert 0.0 < content["latency"]["median_s"] <= content["latency"]["p99_s"] <= content["latency"]["max_s"]
 
 
 def test_in_words(ial: Callable[..., Any]) -> None:

@@ -119,7 +119,7 @@ def test_killed_at_random_moments_nothing_is_missing_repeated_or_different(lines
         assert 0 < out.stat().st_size < len(expected)
     result = stream(lines, "--out", out, "--state", state)
     assert result.returncode == 0
-    assert b"goes on behind scan" in result.stderr
+    assert b"goes on after scan" in result.stderr
     assert out.read_bytes() == expected
 
 

@@ -26,43 +26,43 @@ def encloses(boxes: Boxes, row: int, point: list[mpmath.mpf]) -> bool:
 
 def test_images_of_points_are_enclosed_to_a_few_bits() -> None:
     points = np.random.default_rng(1).normal(size=(200, 3)) * 10.0 ** np.random.default_rng(2).integers(-12, 12, size=(200, 1))
-    found = Affine(MATRIX, OFFSET).image(Boxes(points, points))
+    image = Affine(MATRIX, OFFSET).image(Boxes(points, points))
     back = Affine(MATRIX, OFFSET).inverse.image(Boxes(points, points))
     with mpmath.workdps(60):
         matrix = mpmath.matrix(MATRIX.tolist())
         for row, point in enumerate(points):
-            assert encloses(found, row, exact(matrix, point, OFFSET))
+            assert encloses(image, row, exact(matrix, point, OFFSET))
             solved = mpmath.lu_solve(matrix, mpmath.matrix(point.tolist()) - mpmath.matrix(OFFSET.tolist()))
             assert encloses(back, row, list(solved))
     scale = abs(points).max(axis=1, keepdims=True) + 5.0
-    assert (found.width() <= 1e-14 * scale).all()
+    assert (image.width() <= 1e-14 * scale).all()
     assert (back.width() <= 1e-14 * scale).all()
 
 
 def test_images_of_boxes_hold_the_images_of_their_corners_and_no_more() -> None:
     points = np.random.default_rng(3).normal(size=(50, 3))
     boxes = boxes_around(points, seed=4)
-    found = Affine(MATRIX, OFFSET).image(boxes)
+    image = Affine(MATRIX, OFFSET).image(boxes)
     ends = np.stack([boxes.lower, boxes.upper])
     corners = np.array([[ends[(i, j, k), row, (0, 1, 2)] for i in (0, 1) for j in (0, 1) for k in (0, 1)] for row in range(50)])
     images = corners @ MATRIX.T + OFFSET
-    np.testing.assert_allclose(found.lower, images.min(axis=1), atol=1e-13)
-    np.testing.assert_allclose(found.upper, images.max(axis=1), atol=1e-13)
+    np.testing.assert_allclose(image.lower, images.min(axis=1), atol=1e-13)
+    np.testing.assert_allclose(image.upper, images.max(axis=1), atol=1e-13)
 
 
 @pytest.mark.parametrize("heading", [0.0, 0.3, -2.0, math.pi / 2, 100.0])
 def test_a_rigid_motion_and_its_inverse(heading: float) -> None:
     motion = Affine.rigid(3.0, -0.1, heading)
     points = np.random.default_rng(5).normal(size=(50, 2))
-    found, back = motion.image(Boxes(points, points)), motion.inverse.image(Boxes(points, points))
+    image, back = motion.image(Boxes(points, points)), motion.inverse.image(Boxes(points, points))
     with mpmath.workdps(60):
         c, s = mpmath.cos(heading), mpmath.sin(heading)
         turn, turn_back = mpmath.matrix([[c, -s], [s, c]]), mpmath.matrix([[c, s], [-s, c]])
         for row, point in enumerate(points):
-            assert encloses(found, row, exact(turn, point, np.array([3.0, -0.1])))
+            assert encloses(image, row, exact(turn, point, np.array([3.0, -0.1])))
             shifted = mpmath.matrix(point.tolist()) - mpmath.matrix([3.0, -0.1])
             assert encloses(back, row, list(turn_back * shifted))
-    assert (found.width() < 1e-14).all()
+    assert (image.width() < 1e-14).all()
 
 
 def test_the_inverse_of_the_inverse_is_the_map_itself() -> None:
@@ -73,18 +73,18 @@ def test_the_inverse_of_the_inverse_is_the_map_itself() -> None:
 
 def test_empty_and_unbounded_rows() -> None:
     shift = Affine([[0.0, 1.0], [2.0, 0.0]], [1.0, 1.0])
-    found = shift.image(Boxes.of([(0, np.inf), (0, 1)], [(np.inf, -np.inf), (np.inf, -np.inf)], [(0, 1), (np.inf, -np.inf)]))
-    assert found.lower.tolist()[0] == [1.0, 1.0]
-    assert found.upper.tolist()[0] == [2.0, np.inf]
-    assert (found.lower[1:] == np.inf).all()
-    assert (found.upper[1:] == -np.inf).all()
+    image = shift.image(Boxes.of([(0, np.inf), (0, 1)], [(np.inf, -np.inf), (np.inf, -np.inf)], [(0, 1), (np.inf, -np.inf)]))
+    assert image.lower.tolist()[0] == [1.0, 1.0]
+    assert image.upper.tolist()[0] == [2.0, np.inf]
+    assert (image.lower[1:] == np.inf).all()
+    assert (image.upper[1:] == -np.inf).all()
     assert len(shift.image(Boxes.none(2))) == 0
 
 
 def test_pivots_are_exchanged() -> None:
     inverse = Affine([[0.0, 0.0, 2.0], [4.0, 0.0, 0.0], [0.0, 8.0, 0.0]], [0.0, 0.0, 0.0]).inverse
-    found = inverse.image(Boxes.of([(2, 2), (4, 4), (8, 8)]))
-    assert found.lower.tolist() == found.upper.tolist() == [[1.0, 1.0, 1.0]]
+    image = inverse.image(Boxes.of([(2, 2), (4, 4), (8, 8)]))
+    assert image.lower.tolist() == image.upper.tolist() == [[1.0, 1.0, 1.0]]
 
 
 def test_bad_input_is_refused() -> None:

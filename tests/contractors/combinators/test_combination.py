@@ -66,11 +66,11 @@ def test_no_point_of_all_or_of_one_of_several_sets_is_lost(dimension: int) -> No
     chosen = [rng.random(len(points)) < 0.8 for _ in range(4)]
     sets = [Points(points[mask]) for mask in chosen]
     for combined, member in ((intersection(sets), np.all(chosen, axis=0)), (union(sets), np.any(chosen, axis=0))):
-        found = combined.contract(boxes)
+        narrowed = combined.contract(boxes)
         wanted = inside(boxes, points) & member
         assert wanted.any()
-        assert inside(found, points)[wanted].all()
-        assert is_well_formed(found, boxes)
+        assert inside(narrowed, points)[wanted].all()
+        assert is_well_formed(narrowed, boxes)
     # The hull of a union of hulls is the hull of the union.
     assert same(union(sets).contract(boxes), Points(points[np.any(chosen, axis=0)]).contract(boxes))
 
@@ -90,10 +90,10 @@ def test_operators_and_functions_give_one_flat_combination() -> None:
 @pytest.mark.parametrize(("combine", "alone"), [(intersection, 0), (union, 4), (lambda family: relaxed(family, 2), 2)])
 def test_a_family_gives_what_its_members_give(combine: Callable[[Any], Contractor], alone: int) -> None:
     family, boxes = several(5, seed=5), random_boxes(300, 2, seed=6)
-    found = combine(family).contract(boxes)
-    assert same(found, relaxed(family.one_by_one(), alone).contract(boxes))
-    assert same(combine([family]).contract(boxes), found)
-    assert is_well_formed(found, boxes)
+    narrowed = combine(family).contract(boxes)
+    assert same(narrowed, relaxed(family.one_by_one(), alone).contract(boxes))
+    assert same(combine([family]).contract(boxes), narrowed)
+    assert is_well_formed(narrowed, boxes)
 
 
 def test_families_and_contractors_mix() -> None:
@@ -110,13 +110,13 @@ def test_a_row_that_is_decided_is_not_passed_on() -> None:
     assert intersection([first, second]).contract(boxes).empty.all()
     assert (first.rows, second.rows) == ([400], [])
     first, second = Counting(Inside((7, 8), (7, 8))), Counting(RIGHT)
-    found = union([Counting(LEFT), first, second]).contract(boxes)
-    assert same(found, Union(LEFT, first.contractor, RIGHT).contract(boxes))
+    narrowed = union([Counting(LEFT), first, second]).contract(boxes)
+    assert same(narrowed, Union(LEFT, first.contractor, RIGHT).contract(boxes))
     assert first.rows == [400]
     first, second = Counting(Inside((-20, 20), (0, 5))), Counting(RIGHT)
-    found = union([first, second]).contract(boxes)
+    narrowed = union([first, second]).contract(boxes)
     assert second.rows == [10]
-    assert same(found, Union(RIGHT, first.contractor).contract(boxes))
+    assert same(narrowed, Union(RIGHT, first.contractor).contract(boxes))
 
 
 def test_input_is_left_alone_and_no_boxes_stay_no_boxes() -> None:

@@ -8,21 +8,21 @@ from tests.contractors.shapes import Inside, Outside, Points, Several, inside, i
 
 def test_variables_are_taken_in_the_order_given() -> None:
     contractor = where(Inside((0, 1), (5, 6)), axes=(2, 0), dimension=3)
-    found = contractor.contract(Boxes.of([(-9, 9), (-7, 7), (-9, 9)], [(-9, 9), (-7, 7), (2, 3)]))
-    assert sides(found) == [[(5, 6), (-7, 7), (0, 1)], [(np.inf, -np.inf)] * 3]
+    narrowed = contractor.contract(Boxes.of([(-9, 9), (-7, 7), (-9, 9)], [(-9, 9), (-7, 7), (2, 3)]))
+    assert sides(narrowed) == [[(5, 6), (-7, 7), (0, 1)], [(np.inf, -np.inf)] * 3]
 
 
 @pytest.mark.parametrize("axes", [(0, 1), (1, 0), (2, 0), (1, 2)])
 def test_no_point_is_lost(axes: tuple[int, int]) -> None:
     plane, space = lattice(2, step=1.0)[::3], lattice(3, step=1.0)
     boxes = random_boxes(150, 3, seed=1)
-    found = where(Points(plane), axes, 3).contract(boxes)
+    narrowed = where(Points(plane), axes, 3).contract(boxes)
     member = (space[:, None, list(axes)] == plane).all(axis=2).any(axis=1)
-    assert inside(found, space)[inside(boxes, space) & member].all()
-    assert is_well_formed(found, boxes)
-    kept = found[~found.empty]
+    assert inside(narrowed, space)[inside(boxes, space) & member].all()
+    assert is_well_formed(narrowed, boxes)
+    kept = narrowed[~narrowed.empty]
     free = ({0, 1, 2} - set(axes)).pop()
-    assert (kept.lower[:, free] == boxes.lower[~found.empty, free]).all()
+    assert (kept.lower[:, free] == boxes.lower[~narrowed.empty, free]).all()
 
 
 def test_separators_families_and_complements_follow() -> None:
@@ -40,8 +40,8 @@ def test_separators_families_and_complements_follow() -> None:
     family = Several(*np.sort(rng.integers(0, 8, size=(2, 5, 2)), axis=0).astype(np.float64))
     one_by_one = [where(member, (2, 0), 3) for member in family.one_by_one()]
     for outliers in range(5):
-        found = relaxed(where(family, (2, 0), 3), outliers).contract(boxes)
-        assert same(found, relaxed(one_by_one, outliers).contract(boxes))
+        narrowed = relaxed(where(family, (2, 0), 3), outliers).contract(boxes)
+        assert same(narrowed, relaxed(one_by_one, outliers).contract(boxes))
 
 
 def test_bad_axes_are_refused() -> None:

@@ -37,10 +37,10 @@ def enumerated(lower: FloatArray, upper: FloatArray, outliers: int) -> Boxes:
 def test_the_exact_hull_is_that_of_all_choices_of_enough_boxes(count: int, dimension: int) -> None:
     lower, upper = random_bounds(120, count, dimension, seed=count)
     for outliers in range(count):
-        found = relaxed_intersection(lower, upper, outliers, exact=True)
-        assert same(found, enumerated(lower, upper, outliers))
+        enclosure = relaxed_intersection(lower, upper, outliers, exact=True)
+        assert same(enclosure, enumerated(lower, upper, outliers))
         by_axis = relaxed_intersection(lower, upper, outliers)
-        assert (found.empty | ((found.lower >= by_axis.lower) & (found.upper <= by_axis.upper)).all(axis=1)).all()
+        assert (enclosure.empty | ((enclosure.lower >= by_axis.lower) & (enclosure.upper <= by_axis.upper)).all(axis=1)).all()
 
 
 def test_boxes_that_overlap_on_each_axis_only_are_told_apart() -> None:

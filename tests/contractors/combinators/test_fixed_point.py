@@ -56,8 +56,8 @@ def test_a_change_below_the_ratio_does_not_count() -> None:
 
 def test_a_bound_that_moves_on_an_unbounded_side_does_not_count() -> None:
     contractor = Halving(2)
-    found = fixpoint(contractor).contract(Boxes.of([(0, np.inf), (-np.inf, np.inf)]))
-    assert sides(found) == [[(1, np.inf), (-np.inf, np.inf)]]
+    narrowed = fixpoint(contractor).contract(Boxes.of([(0, np.inf), (-np.inf, np.inf)]))
+    assert sides(narrowed) == [[(1, np.inf), (-np.inf, np.inf)]]
     assert contractor.rows == [1]
 
 

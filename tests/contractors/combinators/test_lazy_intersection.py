@@ -46,9 +46,9 @@ def test_the_solutions_are_those_of_the_intersection() -> None:
     both = RARE.holds(points) & OFTEN.holds(points)
     for seed in range(5):
         boxes = random_boxes(200, 2, seed)
-        found = contractor.contract(boxes)
-        assert inside(found, points)[inside(boxes, points) & both].all()
-        assert same(found, intersection([RARE, OFTEN]).contract(boxes))  # exact contractors: the order does not matter
+        narrowed = contractor.contract(boxes)
+        assert inside(narrowed, points)[inside(boxes, points) & both].all()
+        assert same(narrowed, intersection([RARE, OFTEN]).contract(boxes))  # exact contractors: the order does not matter
 
 
 def test_the_order_depends_on_the_batches_only() -> None:

@@ -16,8 +16,10 @@ class Known(Inside):
 
 def test_a_set_is_seen_through_a_shift_and_a_scaling() -> None:
     twice = Affine([[0.0, 2.0], [1.0, 0.0]], [1.0, 0.0])  # (x, y) -> (2 y + 1, x)
-    found = transform(Inside(*BOUNDS), twice, twice.inverse).contract(Boxes.of([(-9, 9), (-9, 9)], [(-9, -1), (-9, 9)], [(2, 3), (1, 8)]))
-    assert sides(found) == [[(0, 6), (0, 1.5)], [(np.inf, -np.inf)] * 2, [(2, 3), (1, 1.5)]]
+    narrowed = transform(Inside(*BOUNDS), twice, twice.inverse).contract(
+        Boxes.of([(-9, 9), (-9, 9)], [(-9, -1), (-9, 9)], [(2, 3), (1, 8)])
+    )
+    assert sides(narrowed) == [[(0, 6), (0, 1.5)], [(np.inf, -np.inf)] * 2, [(2, 3), (1, 1.5)]]
 
 
 @pytest.mark.parametrize("heading", [0.0, 0.4, 2.0])
@@ -52,11 +54,11 @@ def test_a_function_may_be_any_object_with_images() -> None:
         def image(self, boxes: Boxes) -> Boxes:
             return Boxes(np.cbrt(boxes.lower) - 1e-9, np.cbrt(boxes.upper) + 1e-9)
 
-    found = transform(Inside((8, 27)), Cube(), Root()).contract(Boxes.of([(-5, 5)], [(2.5, 5)], [(4, 5)]))
-    np.testing.assert_allclose(found.lower[:2, 0], [2, 2.5], atol=1e-8)
-    np.testing.assert_allclose(found.upper[:2, 0], [3, 3], atol=1e-8)
-    assert found.lower[1, 0] == 2.5
-    assert found.empty.tolist() == [False, False, True]
+    narrowed = transform(Inside((8, 27)), Cube(), Root()).contract(Boxes.of([(-5, 5)], [(2.5, 5)], [(4, 5)]))
+    np.testing.assert_allclose(narrowed.lower[:2, 0], [2, 2.5], atol=1e-8)
+    np.testing.assert_allclose(narrowed.upper[:2, 0], [3, 3], atol=1e-8)
+    assert narrowed.lower[1, 0] == 2.5
+    assert narrowed.empty.tolist() == [False, False, True]
 
 
 def test_a_row_without_values_is_empty_even_if_the_inverse_forgets_it() -> None:

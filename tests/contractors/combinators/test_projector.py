@@ -44,17 +44,17 @@ def test_the_projection_of_a_finite_set_is_found_exactly() -> None:
     for onto, hidden in (((0, 1), 2), ((2, 0), 1)):
         shown = points[(points[:, hidden] >= 1) & (points[:, hidden] <= 6)][:, list(onto)]
         for precision in (0.1, 100.0):
-            found = projection(Points(points), onto, domain, precision).contract(boxes)
-            assert same(found, Points(shown).contract(boxes))  # the hull of a union of hulls
-            assert is_well_formed(found, boxes)
+            narrowed = projection(Points(points), onto, domain, precision).contract(boxes)
+            assert same(narrowed, Points(shown).contract(boxes))  # the hull of a union of hulls
+            assert is_well_formed(narrowed, boxes)
     assert inside(boxes, plane).any()
 
 
 def test_several_variables_may_be_hidden() -> None:
     points = np.random.default_rng(3).integers(0, 8, size=(20, 4)).astype(np.float64)
     boxes = random_boxes(100, 2, seed=4)
-    found = projection(Points(points), (3, 1), [(0.0, 7.0), (0.0, 7.0)], 0.5).contract(boxes)
-    assert same(found, Points(points[:, [3, 1]]).contract(boxes))
+    narrowed = projection(Points(points), (3, 1), [(0.0, 7.0), (0.0, 7.0)], 0.5).contract(boxes)
+    assert same(narrowed, Points(points[:, [3, 1]]).contract(boxes))
 
 
 def test_finer_values_give_a_closer_projection() -> None:
@@ -69,9 +69,9 @@ def test_finer_values_give_a_closer_projection() -> None:
 
     left = []
     for precision in (1.0, 0.25, 0.01):
-        found = projection(Cross(), (0,), [(0.0, 0.9)], precision).contract(cells(1 / 64))
-        assert not found.empty[(cells(1 / 64).lower[:, 0] <= 0.5) & (cells(1 / 64).upper[:, 0] >= 0.5)].any()
-        left.append(int((~found.empty).sum()))
+        narrowed = projection(Cross(), (0,), [(0.0, 0.9)], precision).contract(cells(1 / 64))
+        assert not narrowed.empty[(cells(1 / 64).lower[:, 0] <= 0.5) & (cells(1 / 64).upper[:, 0] >= 0.5)].any()
+        left.append(int((~narrowed.empty).sum()))
     assert left[0] > left[1] > left[2] <= 4
 
 
@@ -123,9 +123,9 @@ def test_the_number_of_boxes_is_limited_for_each_row() -> None:
             return super().contract(boxes)
 
     contractor = Watched()
-    found = projection(contractor, (0,), [(0.9, 2.0)], 1e-9, max_boxes=20).contract(Boxes.of([(0.5, 0.6)], [(0.51, 0.6)]))
+    narrowed = projection(contractor, (0,), [(0.9, 2.0)], 1e-9, max_boxes=20).contract(Boxes.of([(0.5, 0.6)], [(0.51, 0.6)]))
     assert contractor.rows <= 2 * 2 * 20
-    assert len(found) == 2
+    assert len(narrowed) == 2
     # Adjacent doubles cannot be bisected: the limit ends the search.
     far = projection(Inside((0, 1), (1e20, 1e20 + 2**14)), (0,), [(1e20, 1e20 + 2**14)], 1.0, max_boxes=50)
     assert sides(far.contract(Boxes.of([(0, 2)]))) == [[(0, 1)]]

@@ -32,10 +32,10 @@ def brute_force(lower: FloatArray, upper: FloatArray, outliers: int) -> list[tup
 def test_each_axis_is_what_brute_force_finds(count: int, dimension: int) -> None:
     lower, upper = random_bounds(150, count, dimension, seed=count)
     for outliers in range(count):
-        found = relaxed_intersection(lower, upper, outliers)
+        enclosure = relaxed_intersection(lower, upper, outliers)
         for row in range(len(lower)):
             expected = brute_force(lower[row], upper[row], outliers)
-            assert list(zip(found.lower[row], found.upper[row], strict=True)) == expected
+            assert list(zip(enclosure.lower[row], enclosure.upper[row], strict=True)) == expected
 
 
 def test_a_point_of_enough_boxes_is_never_lost() -> None:
@@ -44,9 +44,9 @@ def test_a_point_of_enough_boxes_is_never_lost() -> None:
     points = rng.integers(0, 8, size=(400, 3)).astype(np.float64)
     inside = ((lower <= points[:, None]) & (points[:, None] <= upper)).all(axis=2).sum(axis=1)
     for outliers in range(9):
-        found = relaxed_intersection(lower, upper, outliers)
+        enclosure = relaxed_intersection(lower, upper, outliers)
         enough = inside >= 9 - outliers
-        assert ((found.lower <= points) & (points <= found.upper)).all(axis=1)[enough].all()
+        assert ((enclosure.lower <= points) & (points <= enclosure.upper)).all(axis=1)[enough].all()
 
 
 def test_intervals_that_only_touch_meet() -> None:
@@ -77,9 +77,9 @@ def test_the_contractor_relaxes_what_its_parts_leave(dimension: int, exact: bool
     family = Several(lower[0], upper[0])
     stacked = family.contract_each(boxes)
     for outliers in range(6):
-        found = relaxed(family.one_by_one(), outliers, exact=exact).contract(boxes)
-        assert same(found, relaxed_intersection(*stacked, outliers, exact=exact))
-        assert is_well_formed(found, boxes)
+        narrowed = relaxed(family.one_by_one(), outliers, exact=exact).contract(boxes)
+        assert same(narrowed, relaxed_intersection(*stacked, outliers, exact=exact))
+        assert is_well_formed(narrowed, boxes)
 
 
 def test_no_point_that_enough_sets_hold_is_lost() -> None:
@@ -89,9 +89,9 @@ def test_no_point_that_enough_sets_hold_is_lost() -> None:
     sets = [Points(points[mask]) for mask in chosen]
     for outliers in range(6):
         for exact in (False, True):
-            found = relaxed(sets, outliers, exact=exact).contract(boxes)
+            narrowed = relaxed(sets, outliers, exact=exact).contract(boxes)
             wanted = inside(boxes, points) & (np.sum(chosen, axis=0) >= 6 - outliers)
-            assert inside(found, points)[wanted].all()
+            assert inside(narrowed, points)[wanted].all()
 
 
 def test_a_large_batch_of_a_family_is_divided(monkeypatch: pytest.MonkeyPatch) -> None:

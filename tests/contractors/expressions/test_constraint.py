@@ -76,8 +76,8 @@ def test_complements_of_intervals() -> None:
         ((x <= 3) & (x >= 2), 0, 10),
         ((x <= 3) & (y <= 5), 3, 10),
     ):
-        found = complement(constraint).contract(box)
-        assert (found.lower[0, 0], found.upper[0, 0]) == (lower, upper)
+        narrowed = complement(constraint).contract(box)
+        assert (narrowed.lower[0, 0], narrowed.upper[0, 0]) == (lower, upper)
     assert complement(x == Interval.entire()).contract(box).empty.all()
     assert repr(complement(x <= 3)) == "~(x <= [3.0, 3.0])"
     assert isinstance(~(x <= 3), Complement)

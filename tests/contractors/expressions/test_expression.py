@@ -34,7 +34,7 @@ NUMBERS = [3, 3.0, np.float64(3), np.float32(3), np.int64(3), np.uint8(3), Fract
 
 @pytest.mark.parametrize("three", NUMBERS, ids=lambda one: type(one).__name__)
 def test_operators_with_numbers_on_both_sides(three: Any) -> None:
-    for found, expected in (
+    for formula, expected in (
         (x + three, (5, 6)),
         (three + x, (5, 6)),
         (x - three, (-1, 0)),
@@ -44,8 +44,8 @@ def test_operators_with_numbers_on_both_sides(three: Any) -> None:
         (x / three, (2 / 3, 1)),
         (three / x, (1, 1.5)),
     ):
-        assert isinstance(found, Expression)
-        assert value(found) == pytest.approx(expected, abs=1e-15)
+        assert isinstance(formula, Expression)
+        assert value(formula) == pytest.approx(expected, abs=1e-15)
     assert value(Expression.__rpow__(x, 3)) == pytest.approx((9, 27))
     for relation, text in (
         (x == three, "=="),
@@ -240,6 +240,6 @@ def test_comparisons_make_constraints() -> None:
         ((x == y + 12 - 4) & (y <= 1), 8, 10),
     ):
         assert isinstance(relation, Constraint)
-        found = relation.contract(box)
-        assert (found.lower[0, 0], found.upper[0, 0]) == (lower, upper)
+        narrowed = relation.contract(box)
+        assert (narrowed.lower[0, 0], narrowed.upper[0, 0]) == (lower, upper)
     assert (x == None) is False  # noqa: E711

@@ -61,9 +61,9 @@ def test_where_every_variable_occurs_once_it_is_the_constraint_itself() -> None:
     constraint = hypot(x - 1, y) == 2
     assert mean_value(constraint) is constraint
     assert isinstance(mean_value((x - y == 0) & (x + y == 2)), MeanValue)
-    found = mean_value((x - y == 0) & (x + y == 2)).contract(Boxes.of([(0, 3), (0, 3)]))
-    assert found.contain([1.0, 1.0]).all()
-    assert found.width().max() < 3.0
+    narrowed = mean_value((x - y == 0) & (x + y == 2)).contract(Boxes.of([(0, 3), (0, 3)]))
+    assert narrowed.contain([1.0, 1.0]).all()
+    assert narrowed.width().max() < 3.0
 
 
 @pytest.mark.parametrize(

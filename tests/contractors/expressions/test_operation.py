@@ -31,8 +31,8 @@ def operands(operation: Operation, seed: int) -> list[Pairs]:
 def test_arrays_boxes_and_intervals_give_what_the_kernel_gives(operation: Operation) -> None:
     given = operands(operation, 1)
     expected = rows(operation.forward, *given)
-    found = operation.bounds(*given)
-    assert_same(found, expected)
+    ours = operation.bounds(*given)
+    assert_same(ours, expected)
     for i in range(0, COUNT, 17):
         one = operation(*(Interval.of_bounds(lower[i], upper[i]) for lower, upper in given))
         assert (one.lower, one.upper) == (expected[0][i], expected[1][i])
@@ -105,9 +105,9 @@ def test_an_operation_of_plain_functions(user_cube: Operation) -> None:
     assert repr(user_cube(x) + y) == "(cube(x) + y)"
     assert not user_cube.bounds(*[(np.empty(0), np.empty(0))])[0].size
     constraint = user_cube(x) + y == 10
-    found = constraint.contract(Boxes.of([(0, 5), (1, 2)]))
-    assert np.allclose(found.lower, [[2.0, 1.0]])
-    assert np.allclose(found.upper, [[9.0 ** (1 / 3), 2.0]])
+    narrowed = constraint.contract(Boxes.of([(0, 5), (1, 2)]))
+    assert np.allclose(narrowed.lower, [[2.0, 1.0]])
+    assert np.allclose(narrowed.upper, [[9.0 ** (1 / 3), 2.0]])
     narrow = Boxes.of([(2.01, 2.02), (1, 2)])  # what it returns may be wider than its operands
     assert_same((constraint.contract(narrow).lower[:, 0], constraint.contract(narrow).upper[:, 0]), ([2.01], [2.02]))
     assert constraint.contract(Boxes.of([(3, 5), (1, 2)])).empty.all()
@@ -142,8 +142,8 @@ def test_an_operation_of_kernels_of_the_user_without_a_derivative() -> None:
 def test_two_operations_of_one_name_are_two() -> None:
     x = variables("x")
     pair = [Operation("same", one, lambda rl, ru, al, au: (al, au)) for one in (lambda al, au: (al, au), lambda al, au: (-au, -al))]
-    found = Function(pair[0](x), pair[1](x)).image(Boxes.of([(1, 2)]))
-    assert_same((found.lower, found.upper), ([[1.0, -2.0]], [[2.0, -1.0]]))
+    image = Function(pair[0](x), pair[1](x)).image(Boxes.of([(1, 2)]))
+    assert_same((image.lower, image.upper), ([[1.0, -2.0]], [[2.0, -1.0]]))
 
 
 missing = object()

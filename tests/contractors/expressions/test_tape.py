@@ -35,9 +35,9 @@ def test_a_tape_gives_what_intervals_give_one_by_one() -> None:
         boxes = boxes_around(rng.uniform(-3.0, 3.0, (6, 3)), rng)
         sides = [[Interval(*side) for side in zip(*box, strict=True)] for box in zip(boxes.lower, boxes.upper, strict=True)]
         expected = [[interval_value(formula, box) for formula in formulas] for box in sides]
-        found = Tape(3, formulas).evaluate(boxes)
-        assert_same(found, ([[one.lower for one in row] for row in expected], [[one.upper for one in row] for row in expected]))
-        empty += int((found[0] > found[1]).sum())
+        values = Tape(3, formulas).evaluate(boxes)
+        assert_same(values, ([[one.lower for one in row] for row in expected], [[one.upper for one in row] for row in expected]))
+        empty += int((values[0] > values[1]).sum())
     assert 50 < empty < 1500
 
 
@@ -63,11 +63,11 @@ def test_no_point_with_its_value_in_the_target_is_lost(rounds: int) -> None:
         margin = 1e-15 * abs(values) + 1e-300
         targets = np.stack([values - margin - widths * rng.random(values.shape), values + margin + widths])
         boxes = boxes_around(chosen, rng)
-        found = tape.narrow(boxes, targets, rounds=rounds)
-        assert not len(lost(found, chosen)), formulas
-        assert ((boxes.lower <= found.lower) & (found.upper <= boxes.upper)).all()
+        after = tape.narrow(boxes, targets, rounds=rounds)
+        assert not len(lost(after, chosen)), formulas
+        assert ((boxes.lower <= after.lower) & (after.upper <= boxes.upper)).all()
         checked += len(chosen)
-        narrowed += int(((boxes.lower < found.lower) | (found.upper < boxes.upper)).sum())
+        narrowed += int(((boxes.lower < after.lower) | (after.upper < boxes.upper)).sum())
     assert checked > 2000
     assert narrowed > 500
 
@@ -108,9 +108,9 @@ def test_members_take_each_box_with_each_row_of_the_constants() -> None:
     _lower, upper = tape.evaluate(boxes, members=3)
     assert upper[:, 0].tolist() == [2.0, 3.0, 4.0, 8.0, 10.0, 12.0]
     targets = np.array([[[4.0]], [[4.0]]])
-    found = tape.narrow(boxes, targets, members=3)
-    assert found.empty.tolist() == [True, True, False, True, True, True]
-    assert found.lower[2].tolist() == found.upper[2].tolist() == [1.0, 1.0]
+    narrowed = tape.narrow(boxes, targets, members=3)
+    assert narrowed.empty.tolist() == [True, True, False, True, True, True]
+    assert narrowed.lower[2].tolist() == narrowed.upper[2].tolist() == [1.0, 1.0]
 
 
 def test_equal_subexpressions_are_computed_once() -> None:
@@ -136,8 +136,8 @@ def test_two_intervals_with_the_same_bounds_stand_for_two_numbers() -> None:
     error = Interval(-1, 1)
     # x + 1 = 1 and y − 1 = −1: each error is another number.
     tape = Tape(3, [x + error, y + error])
-    found = tape.narrow(Boxes.of([(0, 0)] * 3), np.array([[[1.0, -1.0]]] * 2))
-    assert found.contain([0.0, 0.0, 0.0]).all()
+    narrowed = tape.narrow(Boxes.of([(0, 0)] * 3), np.array([[[1.0, -1.0]]] * 2))
+    assert narrowed.contain([0.0, 0.0, 0.0]).all()
     tape = Tape(3, [x * error - x * error])  # 1·1 − 1·(−1) = 2
     assert tape.narrow(Boxes.of([(1, 1)] * 3), np.array([[[2.0]]] * 2)).contain([1.0, 1.0, 1.0]).all()
     column = Boxes.of([(-1, 1)], [(-1, 1)])
@@ -157,11 +157,11 @@ def test_empty_and_unbounded_boxes() -> None:
     )
     low, high = tape.evaluate(boxes)
     assert_same((low, high), ([[math.inf], [-math.inf], [-math.inf]], [[-math.inf], [math.inf], [math.inf]]))
-    found = tape.narrow(boxes, np.array([[[2.0]], [[3.0]]]))
-    assert found.empty.tolist() == [True, False, False]
-    assert found.lower[0].tolist() == [math.inf] * 3
-    assert found.upper[0].tolist() == [-math.inf] * 3
-    assert_same((found.lower[2], found.upper[2]), ([0.0, 1.0, 5.0], [1.0, 3.0, 6.0]))
+    narrowed = tape.narrow(boxes, np.array([[[2.0]], [[3.0]]]))
+    assert narrowed.empty.tolist() == [True, False, False]
+    assert narrowed.lower[0].tolist() == [math.inf] * 3
+    assert narrowed.upper[0].tolist() == [-math.inf] * 3
+    assert_same((narrowed.lower[2], narrowed.upper[2]), ([0.0, 1.0, 5.0], [1.0, 3.0, 6.0]))
     nothing = tape.narrow(boxes, np.array([[[math.inf]], [[-math.inf]]]))
     assert nothing.empty.all()
     assert (nothing.lower == math.inf).all()

@@ -35,10 +35,10 @@ def test_a_point_is_kept_by_the_side_of_an_annulus_it_is_on(
 def test_an_annulus_around_a_centre() -> None:
     ring = Annulus((10, 0), Interval(1, 2))
     boxes = Boxes.of([ENTIRE, ENTIRE], [(9.5, 10.5), (-0.5, 0.5)], [(10, 20), (0, 0)], [(0, 5), ENTIRE])
-    found = ring.contract(boxes)
-    assert found.empty.tolist() == [False, True, False, True]
-    assert found[[0, 2]].lower == pytest.approx(np.array([[8, -2], [11, 0]]), rel=1e-15)
-    assert found[[0, 2]].upper == pytest.approx(np.array([[12, 2], [12, 0]]), rel=1e-15)
+    narrowed = ring.contract(boxes)
+    assert narrowed.empty.tolist() == [False, True, False, True]
+    assert narrowed[[0, 2]].lower == pytest.approx(np.array([[8, -2], [11, 0]]), rel=1e-15)
+    assert narrowed[[0, 2]].upper == pytest.approx(np.array([[12, 2], [12, 0]]), rel=1e-15)
     outside = (~ring).contract(boxes)
     assert outside.lower.tolist() == [[-INF, -INF], [9.5, -0.5], [10, 0], [0, -INF]]
     assert outside.upper.tolist() == [[INF, INF], [10.5, 0.5], [20, 0], [5, INF]]

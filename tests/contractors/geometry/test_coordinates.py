@@ -50,9 +50,9 @@ def test_a_sector_in_the_plane(start: float, turned: float) -> None:
 
 def test_the_contraction_is_strong_also_across_the_cut() -> None:
     everywhere = Boxes.of([(-10, 10), (-10, 10)])
-    behind = from_polar(union([Inside((1, 2), (3.0, 4.0)), Inside((1, 2), (-4.0, -3.0))])).contract(everywhere)
-    np.testing.assert_allclose(behind.lower, [[-2.0, -2 * math.sin(math.pi - 3.0)]], atol=1e-12)
-    np.testing.assert_allclose(behind.upper, [[math.cos(3.0), 2 * math.sin(3.0)]], atol=1e-12)
+    left = from_polar(union([Inside((1, 2), (3.0, 4.0)), Inside((1, 2), (-4.0, -3.0))])).contract(everywhere)
+    np.testing.assert_allclose(left.lower, [[-2.0, -2 * math.sin(math.pi - 3.0)]], atol=1e-12)
+    np.testing.assert_allclose(left.upper, [[math.cos(3.0), 2 * math.sin(3.0)]], atol=1e-12)
 
 
 def test_the_origin_has_every_direction() -> None:
@@ -87,9 +87,9 @@ def test_unbounded_and_empty_boxes_and_none() -> None:
     boxes = random_boxes(200, 2, seed=3)
     for made in (from_polar(separator(*RING)), to_polar(separator(*RING))):
         for contractor in (made.inner, made.outer):
-            found = contractor.contract(boxes)
-            assert is_well_formed(found, boxes)
-            assert found.empty[boxes.empty].all()
+            narrowed = contractor.contract(boxes)
+            assert is_well_formed(narrowed, boxes)
+            assert narrowed.empty[boxes.empty].all()
             assert len(contractor.contract(Boxes.none(2))) == 0
 
 

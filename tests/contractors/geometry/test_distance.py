@@ -23,8 +23,8 @@ def around(exact: mpmath.mpf) -> tuple[float, float]:
 
 
 def contract(*sides: tuple[float, float]) -> list[tuple[float, float]]:
-    found = Distance().contract(Boxes.of(sides))
-    return list(zip(found.lower[0].tolist(), found.upper[0].tolist(), strict=True))
+    narrowed = Distance().contract(Boxes.of(sides))
+    return list(zip(narrowed.lower[0].tolist(), narrowed.upper[0].tolist(), strict=True))
 
 
 coordinate = st.one_of(st.sampled_from([0.0, 1.0, -1.0, 1e-300, 1e200]), st.floats(-100, 100))
@@ -36,8 +36,8 @@ def test_a_point_that_satisfies_the_relation_is_never_lost(ends: list[float], mo
     with mpmath.workdps(700):
         length = around(mpmath.hypot(mpmath.mpf(bx) - ax, mpmath.mpf(by) - ay))
     point = [(each, each) for each in ends] + [length]
-    found = contract(*((low - moves[2 * i], high + moves[2 * i + 1]) for i, (low, high) in enumerate(point)))
-    assert all(low <= inner_low and inner_high <= high for (inner_low, inner_high), (low, high) in zip(point, found, strict=True))
+    narrowed = contract(*((low - moves[2 * i], high + moves[2 * i + 1]) for i, (low, high) in enumerate(point)))
+    assert all(low <= inner_low and inner_high <= high for (inner_low, inner_high), (low, high) in zip(point, narrowed, strict=True))
 
 
 def test_no_much_narrower_box_would_do() -> None:
@@ -53,15 +53,15 @@ def test_no_much_narrower_box_would_do() -> None:
         with np.errstate(invalid="ignore"):
             by = ay + sign * np.sqrt(d**2 - (bx - ax) ** 2)
         points = np.stack([ax, ay, bx, by, d], axis=1)[(by >= lower[3]) & (by <= upper[3])]
-        found = Distance().contract(Boxes(lower[None], upper[None]))
+        narrowed = Distance().contract(Boxes(lower[None], upper[None]))
         if not len(points):
             continue
-        assert not found.empty[0]
-        assert (found.lower[0] <= points.min(axis=0) + 1e-12).all()
-        assert (found.upper[0] >= points.max(axis=0) - 1e-12).all()
+        assert not narrowed.empty[0]
+        assert (narrowed.lower[0] <= points.min(axis=0) + 1e-12).all()
+        assert (narrowed.upper[0] >= points.max(axis=0) - 1e-12).all()
         # The lattice is coarse, so that its hull may be narrower by some steps; a bound that does not move at all would differ by more.
-        assert (points.min(axis=0) - found.lower[0] < 0.6).all()
-        assert (found.upper[0] - points.max(axis=0) < 0.6).all()
+        assert (points.min(axis=0) - narrowed.lower[0] < 0.6).all()
+        assert (narrowed.upper[0] - points.max(axis=0) < 0.6).all()
 
 
 def test_each_variable_follows_from_the_others() -> None:
@@ -73,8 +73,8 @@ def test_each_variable_follows_from_the_others() -> None:
 
 
 def test_two_branches_narrow_from_both_sides() -> None:
-    found = contract((0, 0), (0, 0), (-4, 10), (-1, 1), (5, 5))
-    assert found[2] == pytest.approx((math.sqrt(24), 5.0))
+    narrowed = contract((0, 0), (0, 0), (-4, 10), (-1, 1), (5, 5))
+    assert narrowed[2] == pytest.approx((math.sqrt(24), 5.0))
 
 
 def test_the_distance_is_never_negative() -> None:

@@ -65,10 +65,10 @@ def points() -> FloatArray:
 @pytest.mark.parametrize("seed", range(5))
 def test_a_point_that_satisfies_the_relation_is_never_lost(points: FloatArray, seed: int) -> None:
     boxes = grown(points, seed)
-    found = Polar().contract(boxes)
-    lost = ((found.lower > points[:, :, 0]) | (found.upper < points[:, :, 1])).any(axis=1)
+    narrowed = Polar().contract(boxes)
+    lost = ((narrowed.lower > points[:, :, 0]) | (narrowed.upper < points[:, :, 1])).any(axis=1)
     assert not lost.any(), (boxes[lost][:2], points[lost][:2])
-    assert ((found.lower >= boxes.lower) & (found.upper <= boxes.upper)).all()
+    assert ((narrowed.lower >= boxes.lower) & (narrowed.upper <= boxes.upper)).all()
 
 
 @given(
@@ -78,8 +78,8 @@ def test_a_point_that_satisfies_the_relation_is_never_lost(points: FloatArray, s
 )
 def test_a_drawn_point_is_never_lost(r: float, theta: float, moves: list[float]) -> None:
     point = solution(r, theta)
-    found = contract(*((low - moves[2 * i], high + moves[2 * i + 1]) for i, (low, high) in enumerate(point)))
-    assert all(low <= inner_low and inner_high <= high for (inner_low, inner_high), (low, high) in zip(point, found, strict=True))
+    narrowed = contract(*((low - moves[2 * i], high + moves[2 * i + 1]) for i, (low, high) in enumerate(point)))
+    assert all(low <= inner_low and inner_high <= high for (inner_low, inner_high), (low, high) in zip(point, narrowed, strict=True))
 
 
 def candidates(
@@ -112,13 +112,13 @@ def hull_of_solutions(lower: list[float], upper: list[float]) -> tuple[FloatArra
     r = max(r[0], 0.0), r[1]
     quarter = math.pi / 2
     directions = [*theta, *(k * quarter for k in range(math.ceil(theta[0] / quarter), math.floor(theta[1] / quarter) + 1))]
-    found = []
+    solutions = []
     for a, b in candidates(x, y, r, directions):
         radius, angle = math.hypot(a, b), math.atan2(b, a)
         turns = range(math.ceil((theta[0] - angle) / (2 * math.pi) - 1e-9), math.floor((theta[1] - angle) / (2 * math.pi) + 1e-9) + 1)
         angles = [angle + 2 * math.pi * k for k in turns] if radius > 1e-12 else list(theta)
-        found += [(a, b, radius, each) for each in angles]
-    points = np.array(found)
+        solutions += [(a, b, radius, each) for each in angles]
+    points = np.array(solutions)
     inside = (np.array([x[0], y[0], r[0], theta[0]]) - 1e-9 <= points) & (points <= np.array([x[1], y[1], r[1], theta[1]]) + 1e-9)
     points = points[inside.all(axis=1)]
     return (points.min(axis=0), points.max(axis=0)) if len(points) else None
@@ -133,13 +133,13 @@ def test_no_narrower_box_would_do(seed: int) -> None:
     centre += rng.normal(size=centre.shape) * rng.choice([0.0, 0.3, 1.0], size=(count, 1))
     below, above = rng.choice([0.05, 0.3, 1.0, 3.0, 12.0], (2, count, 4), p=[0.3, 0.3, 0.2, 0.15, 0.05]) * rng.random((2, count, 4))
     boxes = Boxes(centre - below, centre + above)
-    found = Polar().contract(boxes)
-    assert 0.2 < found.empty.mean() < 0.8
+    narrowed = Polar().contract(boxes)
+    assert 0.2 < narrowed.empty.mean() < 0.8
     for i in range(count):
         twin = hull_of_solutions(boxes.lower[i].tolist(), boxes.upper[i].tolist())
-        assert found.empty[i] == (twin is None), boxes[[i]]
+        assert narrowed.empty[i] == (twin is None), boxes[[i]]
         if twin is not None:
-            assert np.abs([found.lower[i] - twin[0], found.upper[i] - twin[1]]).max() < 1e-8, (boxes[[i]], found[[i]], twin)
+            assert np.abs([narrowed.lower[i] - twin[0], narrowed.upper[i] - twin[1]]).max() < 1e-8, (boxes[[i]], narrowed[[i]], twin)
 
 
 KNOWN = solution(5.0, 0.8)
@@ -148,9 +148,9 @@ KNOWN = solution(5.0, 0.8)
 @pytest.mark.parametrize("unknown", [(X, Y), (X, R), (Y, R), (R, THETA), (X, THETA), (Y, THETA)])
 def test_two_coordinates_follow_from_the_two_others(unknown: tuple[int, int]) -> None:
     first_quadrant = [(0.0, INF), (0.0, INF), ENTIRE, (0.0, 1.5)]
-    found = contract(*(first_quadrant[i] if i in unknown else side for i, side in enumerate(KNOWN)))
+    narrowed = contract(*(first_quadrant[i] if i in unknown else side for i, side in enumerate(KNOWN)))
     for i in unknown:
-        assert found[i] == pytest.approx(KNOWN[i], abs=4e-15)
+        assert narrowed[i] == pytest.approx(KNOWN[i], abs=4e-15)
 
 
 def test_the_length_and_the_angle_of_a_point_are_enclosed_exactly() -> None:
@@ -180,9 +180,9 @@ def test_an_angle_is_found_in_each_turn_that_its_interval_meets() -> None:
 
 
 def test_angles_across_the_cut() -> None:
-    found = contract((-5, -4), (-1, 1), ENTIRE, (2.0, 4.5))
-    assert found[THETA] == pytest.approx((math.pi - math.atan(0.25), math.pi + math.atan(0.25)))
-    assert found[R] == pytest.approx((4.0, math.hypot(5, 1)))
+    narrowed = contract((-5, -4), (-1, 1), ENTIRE, (2.0, 4.5))
+    assert narrowed[THETA] == pytest.approx((math.pi - math.atan(0.25), math.pi + math.atan(0.25)))
+    assert narrowed[R] == pytest.approx((4.0, math.hypot(5, 1)))
 
 
 def test_the_origin_has_every_direction() -> None:
@@ -215,10 +215,10 @@ def test_angles_beyond_the_range_of_the_sine() -> None:
 def test_an_empty_row_stays_empty_and_others_are_kept_in_order() -> None:
     boxes = Boxes.of(KNOWN, EMPTY, KNOWN, [(9, 10), *KNOWN[1:]])
     before = boxes.lower.copy()
-    found = Polar().contract(boxes)
-    assert found.empty.tolist() == [False, True, False, True]
-    assert (found.lower[[1, 3]] == INF).all()
-    assert (found.upper[[1, 3]] == -INF).all()
+    narrowed = Polar().contract(boxes)
+    assert narrowed.empty.tolist() == [False, True, False, True]
+    assert (narrowed.lower[[1, 3]] == INF).all()
+    assert (narrowed.upper[[1, 3]] == -INF).all()
     assert (boxes.lower == before).all()
 
 

@@ -90,16 +90,16 @@ def test_boxes_shrink_to_the_hull_of_their_part(outline: list[Ring], holes: list
     shape = shapely.Polygon(outline[0], holes)
     polygon = Polygon(outline[0], holes)
     boxes = random_boxes(300, 7, 5.0)
-    found = (~polygon if flip else polygon).contract(boxes)
-    assert ((found.lower >= boxes.lower) & (found.upper <= boxes.upper)).all()
+    narrowed = (~polygon if flip else polygon).contract(boxes)
+    assert ((narrowed.lower >= boxes.lower) & (narrowed.upper <= boxes.upper)).all()
     for i in range(300):
         # Of a box without an area, shapely makes an invalid polygon; its convex hull is a segment or a point.
         box = shapely.box(*boxes.lower[i], *boxes.upper[i]).convex_hull
         # Borders belong to both sides; shapely leaves them out of a difference.
         part = shapely.union(shapely.difference(box, shape), shape.boundary.intersection(box)) if flip else shapely.intersection(box, shape)
-        assert found.empty[i] == part.is_empty
+        assert narrowed.empty[i] == part.is_empty
         if not part.is_empty:
-            assert [*found.lower[i], *found.upper[i]] == pytest.approx(part.bounds, abs=1e-9)
+            assert [*narrowed.lower[i], *narrowed.upper[i]] == pytest.approx(part.bounds, abs=1e-9)
 
 
 def test_a_square_with_a_hole() -> None:
@@ -134,17 +134,17 @@ def test_direction_and_a_repeated_corner_do_not_matter() -> None:
     boxes = random_boxes(100, 9, 4.0)
     plain = Polygon(L_SHAPE).contract(boxes)
     for vertices in (L_SHAPE[::-1], [*L_SHAPE, L_SHAPE[0]], L_SHAPE[2:] + L_SHAPE[:2]):
-        found = Polygon(vertices).contract(boxes)
-        assert (found.lower == plain.lower).all()
-        assert (found.upper == plain.upper).all()
+        narrowed = Polygon(vertices).contract(boxes)
+        assert (narrowed.lower == plain.lower).all()
+        assert (narrowed.upper == plain.upper).all()
 
 
 def test_shapes_of_shapely() -> None:
     several = shapely.MultiPolygon([(SQUARE, [HOLE]), ([(6, 0), (8, 0), (8, 2)], [])])
-    found = Polygon.from_shapely(several).contract(Boxes.of([(3, 9), (0.5, 1)], [(4.5, 5.5), (0, 4)], [(7.5, 9), (1, 1)]))
-    assert found.empty.tolist() == [False, True, False]
-    assert found.lower[0].tolist() == [3, 0.5]
-    assert found.upper[0].tolist() == [8, 1]
+    narrowed = Polygon.from_shapely(several).contract(Boxes.of([(3, 9), (0.5, 1)], [(4.5, 5.5), (0, 4)], [(7.5, 9), (1, 1)]))
+    assert narrowed.empty.tolist() == [False, True, False]
+    assert narrowed.lower[0].tolist() == [3, 0.5]
+    assert narrowed.upper[0].tolist() == [8, 1]
     high = shapely.Polygon([(x, y, 7) for x, y in SQUARE])
     assert not Polygon.from_shapely(high).contract(Boxes.of([(1, 2), (1, 2)])).empty[0]
 

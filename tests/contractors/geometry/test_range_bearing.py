@@ -62,8 +62,8 @@ def points() -> FloatArray:
 @pytest.mark.parametrize("seed", range(5))
 def test_a_point_that_satisfies_the_relation_is_never_lost(points: FloatArray, seed: int) -> None:
     lower, upper = grown(points, seed)
-    found = RangeBearing().contract(Boxes(lower, upper))
-    lost = ((found.lower > points[:, :, 0]) | (found.upper < points[:, :, 1])).any(axis=1)
+    narrowed = RangeBearing().contract(Boxes(lower, upper))
+    lost = ((narrowed.lower > points[:, :, 0]) | (narrowed.upper < points[:, :, 1])).any(axis=1)
     assert not lost.any(), (lower[lost][:2], upper[lost][:2], points[lost][:2])
 
 
@@ -72,11 +72,11 @@ def test_the_result_is_at_least_as_narrow_as_the_input(points: FloatArray, seed:
     shifted = points + np.random.default_rng(seed).normal(size=(len(points), 7, 1)) * 0.3
     lower, upper = grown(shifted, seed)
     before = lower.copy(), upper.copy()
-    found = RangeBearing().contract(Boxes(lower, upper))
-    assert (found.lower >= lower).all()
-    assert (found.upper <= upper).all()
-    assert (np.isposinf(found.lower[found.empty]) & np.isneginf(found.upper[found.empty])).all()
-    assert 0 < found.empty.sum() < len(lower)
+    narrowed = RangeBearing().contract(Boxes(lower, upper))
+    assert (narrowed.lower >= lower).all()
+    assert (narrowed.upper <= upper).all()
+    assert (np.isposinf(narrowed.lower[narrowed.empty]) & np.isneginf(narrowed.upper[narrowed.empty])).all()
+    assert 0 < narrowed.empty.sum() < len(lower)
     assert (lower == before[0]).all()
     assert (upper == before[1]).all()
 
@@ -87,8 +87,8 @@ KNOWN = solution(1.0, 2.0, 0.3, 5.0, 0.5)
 
 @pytest.mark.parametrize("unknown", [X, Y, R, WX, WY])
 def test_one_unknown_is_found_from_the_six_others(unknown: int) -> None:
-    found = contract(*(ENTIRE if variable == unknown else side for variable, side in enumerate(KNOWN)))
-    assert found[unknown] == pytest.approx(KNOWN[unknown], abs=1e-12)
+    narrowed = contract(*(ENTIRE if variable == unknown else side for variable, side in enumerate(KNOWN)))
+    assert narrowed[unknown] == pytest.approx(KNOWN[unknown], abs=1e-12)
 
 
 @pytest.mark.parametrize("unknown", [THETA, BEARING])
@@ -100,14 +100,14 @@ def test_an_unknown_angle_is_found_in_any_turn(unknown: int, turn: float) -> Non
 
 
 def test_a_heading_is_narrowed_across_the_cut_at_half_a_turn() -> None:
-    found = contract((0, 0), (0, 0), (2.0, 4.5), (0, 10), (0, 0), (-5, -5), (-0.5, 0.5))
-    assert found[THETA] == pytest.approx((math.pi - math.atan(0.1), math.pi + math.atan(0.1)))
-    assert found[R] == pytest.approx((5.0, math.hypot(5.0, 0.5)))
+    narrowed = contract((0, 0), (0, 0), (2.0, 4.5), (0, 10), (0, 0), (-5, -5), (-0.5, 0.5))
+    assert narrowed[THETA] == pytest.approx((math.pi - math.atan(0.1), math.pi + math.atan(0.1)))
+    assert narrowed[R] == pytest.approx((5.0, math.hypot(5.0, 0.5)))
 
 
 def test_a_heading_that_fits_in_two_turns_becomes_their_hull() -> None:
-    found = contract((0, 0), (0, 0), (-4.0, 4.0), (1, 1), (0, 0), (-1, -0.9), (-0.1, 0.1))
-    assert found[THETA] == pytest.approx((-math.pi - math.acos(0.99), math.pi + math.acos(0.99)), abs=0.05)
+    narrowed = contract((0, 0), (0, 0), (-4.0, 4.0), (1, 1), (0, 0), (-1, -0.9), (-0.1, 0.1))
+    assert narrowed[THETA] == pytest.approx((-math.pi - math.acos(0.99), math.pi + math.acos(0.99)), abs=0.05)
 
 
 def test_the_range_is_never_negative() -> None:
@@ -117,15 +117,15 @@ def test_the_range_is_never_negative() -> None:
 
 def test_a_range_of_zero_leaves_the_angles_free() -> None:
     circle = (-PI_UPPER, PI_UPPER)
-    found = contract((1, 1), (2, 2), circle, (0, 5), (-0.1, 0.1), (1, 1), (2, 2))
-    assert found[THETA] == circle
-    assert found[BEARING] == (-0.1, 0.1)
-    assert found[R] == (0.0, 0.0)
+    narrowed = contract((1, 1), (2, 2), circle, (0, 5), (-0.1, 0.1), (1, 1), (2, 2))
+    assert narrowed[THETA] == circle
+    assert narrowed[BEARING] == (-0.1, 0.1)
+    assert narrowed[R] == (0.0, 0.0)
 
 
 def test_the_range_is_divided_out_when_one_coordinate_is_free() -> None:
-    found = contract((0, 0), (0, 0), (math.pi / 3, math.pi / 3), (0, 100), (0, 0), (1, 2), ENTIRE)
-    assert found[R] == pytest.approx((2.0, 4.0))
+    narrowed = contract((0, 0), (0, 0), (math.pi / 3, math.pi / 3), (0, 100), (0, 0), (1, 2), ENTIRE)
+    assert narrowed[R] == pytest.approx((2.0, 4.0))
 
 
 def test_a_point_out_of_reach_empties_the_row() -> None:

@@ -39,12 +39,12 @@ def exact_hull(segments: list[tuple[Point, Point]], box: list[tuple[float, float
     return [(min(low for low, _ in axis), max(high for _, high in axis)) for axis in zip(*parts, strict=True)] if parts else None
 
 
-def check(found: Boxes, exact: Exact | None, box: list[tuple[float, float]], slack: float) -> None:
+def check(narrowed: Boxes, exact: Exact | None, box: list[tuple[float, float]], slack: float) -> None:
     """Assert that a row encloses the exact hull, and is no wider than a slack beyond it; where that is empty, at most a crumb is left."""
     if exact is None:
-        assert found.empty[0] or (found.width() <= slack).all()
+        assert narrowed.empty[0] or (narrowed.width() <= slack).all()
         return
-    for lower, upper, (low, high), (first, last) in zip(found.lower[0].tolist(), found.upper[0].tolist(), exact, box, strict=True):
+    for lower, upper, (low, high), (first, last) in zip(narrowed.lower[0].tolist(), narrowed.upper[0].tolist(), exact, box, strict=True):
         assert first <= lower <= low
         assert high <= upper <= last
         assert low - lower <= slack
@@ -74,9 +74,9 @@ def test_the_doubles_around_a_point_of_a_segment_are_kept(start: Point, end: Poi
     low = [float(each) if Fraction(float(each)) <= each else math.nextafter(float(each), -INF) for each in exact]
     high = [float(each) if Fraction(float(each)) >= each else math.nextafter(float(each), INF) for each in exact]
     box = [(low[i] - moves[2 * i], high[i] + moves[2 * i + 1]) for i in range(2)]
-    found = Segment(start, end).contract(Boxes.of(box))
-    assert (found.lower[0] <= low).all()
-    assert (found.upper[0] >= high).all()
+    narrowed = Segment(start, end).contract(Boxes.of(box))
+    assert (narrowed.lower[0] <= low).all()
+    assert (narrowed.upper[0] >= high).all()
 
 
 def test_level_upright_and_slanting_segments() -> None:
@@ -89,22 +89,22 @@ def test_level_upright_and_slanting_segments() -> None:
         ((0, 1), (2, -1), [0.5, -0.5], [1.5, 0.5]),
         ((1, 0.5), (1, 0.5), [1, 0.5], [1, 0.5]),
     ]:
-        found = Segment(start, end).contract(box)
-        assert (found.lower[0].tolist(), found.upper[0].tolist()) == (lower, upper)
+        narrowed = Segment(start, end).contract(box)
+        assert (narrowed.lower[0].tolist(), narrowed.upper[0].tolist()) == (lower, upper)
     assert Segment((0, 3), (0, 4)).contract(box).empty[0]
     assert Segment((0, 0.9), (0.6, 2)).contract(box).empty[0]
 
 
 def test_unbounded_empty_and_point_boxes() -> None:
     segment = Segment((1, 2), (3, 4))
-    found = segment.contract(
+    narrowed = segment.contract(
         Boxes.of([(-INF, INF)] * 2, [(INF, -INF)] * 2, [(2, 2), (3, 3)], [(2, 2), (3.001, 3.001)], [(-INF, 2), (-INF, INF)])
     )
-    assert found.empty.tolist() == [False, True, False, True, False]
-    assert found[[0, 2, 4]].lower.tolist() == [[1, 2], [2, 3], [1, 2]]
-    assert found[[0, 2, 4]].upper.tolist() == [[3, 4], [2, 3], [2, 3]]
-    assert (found.lower[[1, 3]] == INF).all()
-    assert (found.upper[[1, 3]] == -INF).all()
+    assert narrowed.empty.tolist() == [False, True, False, True, False]
+    assert narrowed[[0, 2, 4]].lower.tolist() == [[1, 2], [2, 3], [1, 2]]
+    assert narrowed[[0, 2, 4]].upper.tolist() == [[3, 4], [2, 3], [2, 3]]
+    assert (narrowed.lower[[1, 3]] == INF).all()
+    assert (narrowed.upper[[1, 3]] == -INF).all()
 
 
 def test_many_segments_are_the_union_of_each() -> None:
@@ -114,11 +114,11 @@ def test_many_segments_are_the_union_of_each() -> None:
     lower = rng.uniform(-1, 10, (700, 3))
     batch = Boxes(lower, lower + rng.uniform(0, 4, (700, 3)))
     before = batch.lower.copy()
-    found = Segments(starts, ends).contract(batch)
+    narrowed = Segments(starts, ends).contract(batch)
     each = [Segment(start, end).contract(batch) for start, end in zip(starts, ends, strict=True)]
-    assert (found.lower == np.min([part.lower for part in each], axis=0)).all()
-    assert (found.upper == np.max([part.upper for part in each], axis=0)).all()
-    assert 0 < found.empty.sum() < 700
+    assert (narrowed.lower == np.min([part.lower for part in each], axis=0)).all()
+    assert (narrowed.upper == np.max([part.upper for part in each], axis=0)).all()
+    assert 0 < narrowed.empty.sum() < 700
     assert (batch.lower == before).all()
 
 

@@ -157,7 +157,7 @@ def test_an_empty_operand_gives_the_empty_interval(kernel: Any) -> None:
         ((1.0, math.inf), (1.0, math.inf), (0.0, math.inf)),
     ],
 )
-def test_division_by_an_interval_that_holds_zero(a: itf1788.Bounds, b: itf1788.Bounds, quotient: itf1788.Bounds) -> None:
+def test_division_by_an_interval_that_holds_zero(a: itf1788.Pair, b: itf1788.Pair, quotient: itf1788.Pair) -> None:
     assert arithmetic.div(*a, *b) == quotient
 
 
@@ -178,5 +178,5 @@ def test_zero_times_infinity_is_zero() -> None:
         ((TINY, TINY), ENTIRE, (-math.inf, 0.0, 0.0, math.inf)),
     ],
 )
-def test_division_into_pieces(a: itf1788.Bounds, b: itf1788.Bounds, pieces: tuple[float, ...]) -> None:
+def test_division_into_pieces(a: itf1788.Pair, b: itf1788.Pair, pieces: tuple[float, ...]) -> None:
     assert arithmetic.div_pieces(*a, *b) == pieces

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ial.contractors.intervals import backward
-from tests.contractors.itf1788 import Bounds
+from tests.contractors.itf1788 import Pair
 from tests.contractors.oracles import EMPTY, ENTIRE, intervals, tight
 from tests.contractors.solutions import COUNT, Kernel, assert_kept, assert_narrows, columns, points, problems
 
@@ -91,5 +91,5 @@ def test_one_empty_operand_of_four_empties_all() -> None:
         (backward.multiply_add_backward, ((7.0, 7.0), (2.0, 2.0), (0.0, 9.0), (1.0, 3.0)), (2.0, 2.0, 2.0, 3.0, 1.0, 3.0)),
     ],
 )
-def test_examples(kernel: Kernel, operands: tuple[Bounds, ...], expected: tuple[float, ...]) -> None:
+def test_examples(kernel: Kernel, operands: tuple[Pair, ...], expected: tuple[float, ...]) -> None:
     assert kernel(*(bound for pair in operands for bound in pair)) == expected

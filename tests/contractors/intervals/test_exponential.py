@@ -67,7 +67,7 @@ def test_values_that_are_doubles_are_exact() -> None:
         (exponential.atanh, (-2.0, -1.0), EMPTY),
     ],
 )
-def test_limits_and_domains(kernel: Any, operand: itf1788.Bounds, result: itf1788.Bounds) -> None:
+def test_limits_and_domains(kernel: Any, operand: itf1788.Pair, result: itf1788.Pair) -> None:
     assert kernel(*operand) == result
 
 

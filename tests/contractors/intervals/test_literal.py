@@ -24,7 +24,7 @@ def cases(folder: Path, kind: str) -> Iterator[re.Match[str]]:
         yield from (case for case in CASE.finditer(file.read_text()) if case["kind"].startswith(kind))
 
 
-def expected(case: re.Match[str]) -> itf1788.Bounds:
+def expected(case: re.Match[str]) -> itf1788.Pair:
     value = itf1788._value(case["result"].lower())
     assert isinstance(value, tuple)
     return value
@@ -47,9 +47,9 @@ def test_itf1788_texts(itf1788_folder: Path) -> None:
 
 
 def test_itf1788_numbers(itf1788_folder: Path) -> None:
-    found = list(cases(itf1788_folder, "numsToInterval"))
-    assert len(found) >= 8
-    for case in found:
+    vectors = list(cases(itf1788_folder, "numsToInterval"))
+    assert len(vectors) >= 8
+    for case in vectors:
         bounds = [float(word) for word in case["numbers"].split()]
         if case["signal"].strip():
             with pytest.raises(ValueError, match="an interval has the bounds"):
@@ -78,7 +78,7 @@ THIRD = (0.3333333333333333, 0.33333333333333337)
         ("[EMPTY]", (math.inf, -math.inf)),
     ],
 )
-def test_forms_of_literals(text: str, bounds: itf1788.Bounds) -> None:
+def test_forms_of_literals(text: str, bounds: itf1788.Pair) -> None:
     low, high = bounds_of_literal(text)
     assert low == pytest.approx(bounds[0], rel=3e-16, abs=0.0)
     assert high == pytest.approx(bounds[1], rel=3e-16, abs=0.0)

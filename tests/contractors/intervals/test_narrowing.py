@@ -52,16 +52,16 @@ def test_the_reverse_of_a_function(operation: Operation) -> None:
 
 @pytest.mark.parametrize(("operation", "sought", "kernel"), TWO, ids=["mulRev", "powRev1", "powRev2", "atan2Rev1", "atan2Rev2"])
 def test_the_reverse_for_one_of_two_operands(operation: Operation, sought: int, kernel: Any) -> None:
-    found = 0
+    kept = 0
     for b, c, x in zip(random(300, 1), random(300, 4), random(300, 7), strict=True):
         for prior in (x, ENTIRE):
             operands = (b, prior) if sought else (prior, b)
             ours, wanted = narrow(operation, c, *operands)[sought], reversed_by(kernel, b, c, prior)
             # Where there is no solution, the other operand may tell while this one does not, for rounding.
             assert ours.is_empty or ours == wanted
-            found += not ours.is_empty
+            kept += not ours.is_empty
             assert wanted.is_empty or not ours.is_empty or not has_solution(operation, c, *operands)
-    assert found > 30
+    assert kept > 30
 
 
 def has_solution(operation: Operation, c: Interval, *operands: Interval) -> bool:

@@ -27,8 +27,8 @@ COUNT = 10_000
 
 
 def results(kernel: Any, operand: Any, exponent: int) -> Any:
-    found = np.array([kernel(lower, upper, exponent) for lower, upper in zip(*(bound.tolist() for bound in operand), strict=True)])
-    return found[:, 0], found[:, 1]
+    bounds = np.array([kernel(lower, upper, exponent) for lower, upper in zip(*(bound.tolist() for bound in operand), strict=True)])
+    return bounds[:, 0], bounds[:, 1]
 
 
 @pytest.mark.parametrize("exponent", EXPONENTS)
@@ -75,7 +75,7 @@ def test_powers_as_two_doubles_have_the_error_they_state(exponent: int) -> None:
 
 @pytest.mark.parametrize(("operation", "kernel", "at_least"), [("pow", powers.pow, 1300), ("pown", powers.pown, 150)])
 def test_itf1788_vectors_are_contained(operation: str, kernel: Any, at_least: int, itf1788_folder: Path) -> None:
-    def called(*inputs: float) -> itf1788.Bounds:
+    def called(*inputs: float) -> itf1788.Pair:
         return kernel(*inputs) if operation == "pow" else kernel(*inputs[:2], int(inputs[2]))
 
     assert len(list(itf1788.cases(itf1788_folder, operation))) >= at_least
@@ -122,7 +122,7 @@ def test_powers_that_are_doubles_are_exact() -> None:
         ((-math.inf, 2.0, 3), (-math.inf, 8.0)),
     ],
 )
-def test_integer_powers_at_zero_and_infinity(operands: tuple[float, ...], result: itf1788.Bounds) -> None:
+def test_integer_powers_at_zero_and_infinity(operands: tuple[float, ...], result: itf1788.Pair) -> None:
     assert powers.pown(*operands) == result
 
 
@@ -140,7 +140,7 @@ def test_integer_powers_at_zero_and_infinity(operands: tuple[float, ...], result
         ((0.0, math.inf, 5), (0.0, math.inf)),
     ],
 )
-def test_roots_at_zero_and_infinity(operands: tuple[float, ...], result: itf1788.Bounds) -> None:
+def test_roots_at_zero_and_infinity(operands: tuple[float, ...], result: itf1788.Pair) -> None:
     assert powers.rootn(*operands) == result
 
 

@@ -123,7 +123,7 @@ def test_pieces_within_the_real_line_are_those_of_the_division() -> None:
         (((1.0, math.inf), (1.0, 2.0), (-1.0, TINY)), (0.0, TINY, *EMPTY)),
     ],
 )
-def test_pieces_within_a_prior(operands: tuple[itf1788.Bounds, ...], pieces: tuple[float, ...]) -> None:
+def test_pieces_within_a_prior(operands: tuple[itf1788.Pair, ...], pieces: tuple[float, ...]) -> None:
     assert reverse.mul_reverse_pieces(*(bound for pair in operands for bound in pair)) == pieces
 
 
@@ -155,9 +155,9 @@ def test_itf1788_vectors_are_met_exactly(operation: str, kernel: Kernel, at_leas
 def test_itf1788_vectors_of_the_division_into_two_pieces_are_met_exactly(itf1788_folder: Path) -> None:
     text = (itf1788_folder / "libieeep1788_mul_rev.itl").read_text()
     # Bare cases only: four intervals without a decoration.
-    found = re.findall(r"mulRevToPair" + r"\s+(\[[^\]]*\])(?!_)" * 2 + r"\s*=" + r"\s*(\[[^\]]*\])(?!_)" * 2 + ";", text)
-    assert len(found) >= 150
-    for words in found:
+    vectors = re.findall(r"mulRevToPair" + r"\s+(\[[^\]]*\])(?!_)" * 2 + r"\s*=" + r"\s*(\[[^\]]*\])(?!_)" * 2 + ";", text)
+    assert len(vectors) >= 150
+    for words in vectors:
         if "[nai]" not in words:
             b, c, first, second = (itf1788._value(word) for word in words)
             assert reverse.mul_reverse_pieces(*b, *c, *ENTIRE) == (*first, *second), words  # type: ignore[misc]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from ial.contractors.intervals import reverse_integer
-from tests.contractors.itf1788 import Bounds
+from tests.contractors.itf1788 import Pair
 from tests.contractors.oracles import EMPTY, ENTIRE
 from tests.contractors.solutions import COUNT, Kernel, assert_kept, assert_narrows, columns, points, problems
 
@@ -82,5 +82,5 @@ def test_an_empty_result_or_prior_gives_the_empty_interval(kernel: Kernel) -> No
         (reverse_integer.floor_reverse, (2.0**53, 2.0**53), ENTIRE, (2.0**53, 2.0**53 + 2.0)),
     ],
 )
-def test_ends_that_do_not_belong(kernel: Kernel, c: Bounds, x: Bounds, expected: Bounds) -> None:
+def test_ends_that_do_not_belong(kernel: Kernel, c: Pair, x: Pair, expected: Pair) -> None:
     assert kernel(*c, *x) == expected

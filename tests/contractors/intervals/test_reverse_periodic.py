@@ -122,7 +122,7 @@ LOOSE: dict[int, Callable[..., Any]] = {
 }
 
 
-def holds_the_exact_answer(case: itf1788.Case, bounds: itf1788.Bounds) -> bool:
+def holds_the_exact_answer(case: itf1788.Case, bounds: itf1788.Pair) -> bool:
     file, line, _ = case.source.split(":", 2)
     if file != "libieeep1788_rev.itl" or int(line) not in LOOSE:
         return False

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from ial.contractors.intervals import reverse_polar
-from tests.contractors.itf1788 import Bounds
+from tests.contractors.itf1788 import Pair
 from tests.contractors.oracles import EMPTY, ENTIRE, rows
 from tests.contractors.solutions import COUNT, Kernel, assert_kept, assert_narrows, columns, points, problems
 
@@ -75,7 +75,7 @@ HALF_PI = (math.pi / 2, math.nextafter(math.pi / 2, 2.0))
         (reverse_polar.atan2_backward, ((0.1, 0.2), ENTIRE, (0.0, 0.0)), (*EMPTY, *EMPTY)),
     ],
 )
-def test_examples(kernel: Kernel, operands: tuple[Bounds, ...], expected: tuple[float, ...]) -> None:
+def test_examples(kernel: Kernel, operands: tuple[Pair, ...], expected: tuple[float, ...]) -> None:
     result = kernel(*(bound for pair in operands for bound in pair))
     if kernel is reverse_polar.hypot_backward:
         assert result == pytest.approx(expected, rel=1e-15)

@@ -68,10 +68,10 @@ def test_questions_have_the_answers_of_the_oracle(name: str) -> None:
     b = tuple(np.where(rng.random(COUNT) < 0.4, same, other) for same, other in zip(a, b, strict=True))  # shared bounds
     none = (b[0] > b[1]) | (b[0] == np.inf) | (b[1] == -np.inf)
     b = tuple(np.where(none, end, bound) for end, bound in zip(EMPTY, b, strict=True))
-    found = answers(getattr(sets, name), a, b)
-    assert (found == getattr(theirs(a), name)(theirs(b))).all()
-    assert found.any()
-    assert not found.all()
+    ours = answers(getattr(sets, name), a, b)
+    assert (ours == getattr(theirs(a), name)(theirs(b))).all()
+    assert ours.any()
+    assert not ours.all()
 
 
 @pytest.mark.parametrize(
@@ -115,7 +115,7 @@ def test_every_state_of_overlap_has_its_converse() -> None:
     bounds = np.sort(np.random.default_rng(10).integers(0, 4, (COUNT, 2, 2)).astype(float), axis=2)
     a = tuple(np.concatenate([a[i], bounds[:, 0, i]]) for i in range(2))
     b = tuple(np.concatenate([b[i], bounds[:, 1, i]]) for i in range(2))
-    found = answers(sets.overlap, a, b)
+    ours = answers(sets.overlap, a, b)
     converse = np.array([0, 2, 1, *range(15, 2, -1)])
-    assert (answers(sets.overlap, b, a) == converse[found]).all()
-    assert set(found) == set(range(16))
+    assert (answers(sets.overlap, b, a) == converse[ours]).all()
+    assert set(ours) == set(range(16))

@@ -85,7 +85,7 @@ def test_a_wide_or_far_interval_gives_the_full_range(kernel: Any) -> None:
 
 
 @pytest.mark.parametrize("bounds", [ENTIRE, (1.0, 2.0), (-2.0, -1.0), (0.0, 4.0), (1e6, 1e6), (-1e300, 1.0), (1.0, np.inf)])
-def test_the_tangent_around_a_pole_or_far_out_is_the_real_line(bounds: itf1788.Bounds) -> None:
+def test_the_tangent_around_a_pole_or_far_out_is_the_real_line(bounds: itf1788.Pair) -> None:
     assert trigonometric.tan(*bounds) == ENTIRE
 
 
@@ -128,7 +128,7 @@ def test_an_extremum_inside_is_found() -> None:
         (trigonometric.atan, ENTIRE, (-HALF_PI_UPPER, HALF_PI_UPPER)),
     ],
 )
-def test_exact_values_and_domains(kernel: Any, operand: itf1788.Bounds, result: itf1788.Bounds) -> None:
+def test_exact_values_and_domains(kernel: Any, operand: itf1788.Pair, result: itf1788.Pair) -> None:
     assert kernel(*operand) == result
 
 
@@ -179,6 +179,6 @@ def test_an_interval_around_an_extremum_reaches_it_however_near_its_bounds_are(w
             below, above = float(at), float(at)
             below, above = (math.nextafter(below, -math.inf), above) if below > at else (below, math.nextafter(above, math.inf))
         for before in (0.0, *(2.0**-k for k in range(5, 40))):
-            for behind in (0.0, 1e-7, before):
-                low, high = wave(below - before, above + behind)
+            for beyond in (0.0, 1e-7, before):
+                low, high = wave(below - before, above + beyond)
                 assert low == -1.0 if turns % 2 else high == 1.0

@@ -58,10 +58,10 @@ def random_boxes(random: np.random.Generator) -> Boxes:
     return moved
 
 
-def hulls_hold(boxes: Boxes, found: Clusters) -> None:
-    for label in range(len(found)):
-        rows = np.flatnonzero(found.labels == label)
-        hull = (found.hulls.lower[label], found.hulls.upper[label])
+def hulls_hold(boxes: Boxes, clusters: Clusters) -> None:
+    for label in range(len(clusters)):
+        rows = np.flatnonzero(clusters.labels == label)
+        hull = (clusters.hulls.lower[label], clusters.hulls.upper[label])
         assert (hull[0][:2] == boxes.lower[rows, :2].min(axis=0)).all()
         assert (hull[1][:2] == boxes.upper[rows, :2].max(axis=0)).all()
         low, high = mpmath.mpf(float(hull[0][2])), mpmath.mpf(float(hull[1][2]))
@@ -88,11 +88,11 @@ def test_components_and_hulls_equal_those_of_all_pairs() -> None:
     several = 0
     for seed in range(120):
         boxes = random_boxes(np.random.default_rng(seed))
-        found = cluster_poses(boxes)
-        assert found.labels.tolist() == twin(boxes), seed
-        assert len(found) == found.labels.max() + 1
-        hulls_hold(boxes, found)
-        several += 1 < len(found) < len(boxes)
+        clusters = cluster_poses(boxes)
+        assert clusters.labels.tolist() == twin(boxes), seed
+        assert len(clusters) == clusters.labels.max() + 1
+        hulls_hold(boxes, clusters)
+        several += 1 < len(clusters) < len(boxes)
     assert several > 50
 
 
@@ -136,21 +136,21 @@ def test_headings_touch_across_the_cut_of_the_circle(one: tuple[float, float], o
 
 def test_the_hull_of_headings_around_the_cut_crosses_it() -> None:
     place = [(0.0, 1.0), (0.0, 1.0)]
-    found = cluster_poses(Boxes.of([*place, (-PI_UPPER, -3.0)], [*place, (3.0, PI_UPPER)], [*place, (-3.0, -2.5)], [*place, (2.5, 3.0)]))
-    assert len(found) == 1
-    assert found.hulls.lower[0, 2] == 2.5
-    assert found.hulls.upper[0, 2] == pytest.approx(2.0 * math.pi - 2.5, abs=1e-12)
-    assert all(contains_angle(found.hulls.lower[0, 2], found.hulls.upper[0, 2], angle) for angle in (2.5, -2.5, math.pi, -math.pi))
+    clusters = cluster_poses(Boxes.of([*place, (-PI_UPPER, -3.0)], [*place, (3.0, PI_UPPER)], [*place, (-3.0, -2.5)], [*place, (2.5, 3.0)]))
+    assert len(clusters) == 1
+    assert clusters.hulls.lower[0, 2] == 2.5
+    assert clusters.hulls.upper[0, 2] == pytest.approx(2.0 * math.pi - 2.5, abs=1e-12)
+    assert all(contains_angle(clusters.hulls.lower[0, 2], clusters.hulls.upper[0, 2], angle) for angle in (2.5, -2.5, math.pi, -math.pi))
 
 
 def test_a_ring_of_headings_has_the_whole_circle_as_its_hull() -> None:
     edges = np.linspace(-math.pi, math.pi, 17)
     edges[0], edges[-1] = -PI_UPPER, PI_UPPER
     boxes = Boxes(np.column_stack([np.zeros((16, 2)), edges[:-1]]), np.column_stack([np.ones((16, 2)), edges[1:]]))
-    found = cluster_poses(boxes)
-    assert len(found) == 1
-    assert found.hulls.lower[0, 2] == -PI_UPPER
-    assert found.hulls.upper[0, 2] == PI_UPPER
+    clusters = cluster_poses(boxes)
+    assert len(clusters) == 1
+    assert clusters.hulls.lower[0, 2] == -PI_UPPER
+    assert clusters.hulls.upper[0, 2] == PI_UPPER
 
 
 def test_points_touch_only_if_they_are_equal() -> None:
@@ -162,8 +162,8 @@ def test_one_large_box_joins_many_small_ones() -> None:
     at = np.random.default_rng(1).uniform(0.0, 50.0, (400, 3)) * [1.0, 1.0, 0.05]
     small = Boxes(at, at + 1e-3)
     assert len(cluster_poses(small)) > 300
-    found = cluster_poses(Boxes.concatenate([small, Boxes.of([(0.0, 51.0), (0.0, 51.0), (0.0, 2.6)])]))
-    assert len(found) == 1
+    clusters = cluster_poses(Boxes.concatenate([small, Boxes.of([(0.0, 51.0), (0.0, 51.0), (0.0, 2.6)])]))
+    assert len(clusters) == 1
 
 
 def test_far_from_the_origin_neighbours_still_touch() -> None:
@@ -183,10 +183,10 @@ def test_a_permutation_of_the_boxes_permutes_the_components() -> None:
 
 
 def test_no_boxes_have_no_components() -> None:
-    found = cluster_poses(Boxes.none(3))
-    assert len(found) == 0
-    assert found.labels.shape == (0,)
-    assert found.hulls.lower.shape == (0, 3)
+    clusters = cluster_poses(Boxes.none(3))
+    assert len(clusters) == 0
+    assert clusters.labels.shape == (0,)
+    assert clusters.hulls.lower.shape == (0, 3)
 
 
 def plain_twin(boxes: Boxes) -> list[int]:
@@ -213,13 +213,13 @@ def test_components_of_boxes_of_any_dimension_equal_those_of_all_pairs(dimension
     for seed in range(40):
         random = np.random.default_rng(seed)
         boxes = sizes_of_all_kinds(random, int(random.integers(1, 12 * 2 ** min(dimension - 1, 4))), dimension)
-        found = cluster(boxes)
-        assert found.labels.tolist() == plain_twin(boxes), seed
-        for label in range(len(found)):
-            hull = boxes[found.labels == label].hull()
-            assert (found.hulls.lower[label] == hull.lower[0]).all()
-            assert (found.hulls.upper[label] == hull.upper[0]).all()
-        several += 1 < len(found) < len(boxes)
+        clusters = cluster(boxes)
+        assert clusters.labels.tolist() == plain_twin(boxes), seed
+        for label in range(len(clusters)):
+            hull = boxes[clusters.labels == label].hull()
+            assert (clusters.hulls.lower[label] == hull.lower[0]).all()
+            assert (clusters.hulls.upper[label] == hull.upper[0]).all()
+        several += 1 < len(clusters) < len(boxes)
     assert several > 10
 
 
@@ -229,11 +229,11 @@ def test_any_axis_may_be_circular(circular: tuple[int, ...]) -> None:
     starts = {axis: (-3.0, -2.5) if axis in circular else (0.0, 1.0) for axis in range(2)}
     boxes = Boxes.of([ends[0], ends[1]], [starts[0], starts[1]])
     assert len(cluster(boxes)) == 2
-    found = cluster(boxes, circular)
-    assert len(found) == 1
+    clusters = cluster(boxes, circular)
+    assert len(clusters) == 1
     for axis in circular:
-        assert found.hulls.lower[0, axis] == 3.0
-        assert found.hulls.upper[0, axis] == pytest.approx(2.0 * math.pi - 2.5, abs=1e-12)
+        assert clusters.hulls.lower[0, axis] == 3.0
+        assert clusters.hulls.upper[0, axis] == pytest.approx(2.0 * math.pi - 2.5, abs=1e-12)
 
 
 def test_many_boxes_of_very_different_sizes_form_a_tree_of_halves() -> None:
@@ -264,8 +264,8 @@ def test_any_axis_may_be_the_circular_one(axis: int) -> None:
     order = [2, 0, 1] if axis == 0 else [0, 2, 1]
     for seed in range(150):
         boxes = random_boxes(np.random.default_rng(seed))
-        found = cluster(Boxes(boxes.lower[:, order], boxes.upper[:, order]), circular=(axis,))
+        clusters = cluster(Boxes(boxes.lower[:, order], boxes.upper[:, order]), circular=(axis,))
         expected = cluster_poses(boxes)
-        assert found.labels.tolist() == expected.labels.tolist() == twin(boxes)
-        assert np.array_equal(found.hulls.lower, expected.hulls.lower[:, order])
-        assert np.array_equal(found.hulls.upper, expected.hulls.upper[:, order])
+        assert clusters.labels.tolist() == expected.labels.tolist() == twin(boxes)
+        assert np.array_equal(clusters.hulls.lower, expected.hulls.lower[:, order])
+        assert np.array_equal(clusters.hulls.upper, expected.hulls.upper[:, order])

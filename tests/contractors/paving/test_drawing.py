@@ -22,9 +22,9 @@ def ax() -> Iterator[Axes]:
 
 
 def rectangles(ax: Axes, label: str) -> list[tuple[float, float, float, float]]:
-    (found,) = (each for each in ax.collections if each.get_label() == label)
-    assert isinstance(found, PolyCollection)
-    return [(*path.vertices.min(axis=0), *path.vertices.max(axis=0)) for path in found.get_paths()]
+    (collection,) = (each for each in ax.collections if each.get_label() == label)
+    assert isinstance(collection, PolyCollection)
+    return [(*path.vertices.min(axis=0), *path.vertices.max(axis=0)) for path in collection.get_paths()]
 
 
 def test_each_box_becomes_its_rectangle_along_the_chosen_axes(ax: Axes) -> None:

@@ -78,15 +78,15 @@ def test_the_bounds_hold_the_smallest_number_and_meet_where_the_solution_has_an_
     for seed in range(40):
         random = np.random.default_rng(seed)
         rectangles = random_rectangles(random, int(random.integers(1, 12)))
-        found = minimal_outliers(separators(rectangles), SEARCHED, 0.1)
+        outcome = minimal_outliers(separators(rectangles), SEARCHED, 0.1)
         truth = fewest(rectangles, 0.5)
-        assert found.q_low <= truth <= found.q_high, seed
-        assert failures(rectangles, found.witness[None])[0] == found.q_high
-        assert SEARCHED.contain(found.witness.tolist())[0]
-        assert found.limited == ""
+        assert outcome.q_low <= truth <= outcome.q_high, seed
+        assert failures(rectangles, outcome.witness[None])[0] == outcome.q_high
+        assert SEARCHED.contain(outcome.witness.tolist())[0]
+        assert outcome.limited == ""
         full = Boxes(rectangles.lower + 0.25, rectangles.upper - 0.25)  # whether a point has as few outliers, and some room
         if fewest(full, 0.25) == truth:
-            assert found.q_low == found.q_high == truth, seed
+            assert outcome.q_low == outcome.q_high == truth, seed
             met.append(truth)
     assert len(met) > 15
     assert len(set(met)) > 3
@@ -94,8 +94,8 @@ def test_the_bounds_hold_the_smallest_number_and_meet_where_the_solution_has_an_
 
 def test_a_point_that_only_touches_is_not_found_and_not_denied() -> None:
     # The two boxes share a corner, which no bisection of this box meets.
-    found = minimal_outliers(separators(Boxes.of([(0, 0.3), (0, 0.3)], [(0.3, 1), (0.3, 1)])), SEARCHED, 1e-3)
-    assert (found.q_low, found.q_high) in {(0, 1), (0, 0)}
+    outcome = minimal_outliers(separators(Boxes.of([(0, 0.3), (0, 0.3)], [(0.3, 1), (0.3, 1)])), SEARCHED, 1e-3)
+    assert (outcome.q_low, outcome.q_high) in {(0, 1), (0, 0)}
 
 
 @pytest.mark.parametrize("way", ["satisfied", "family", "complement"])
@@ -112,16 +112,16 @@ def test_other_kinds_of_constraints_give_the_same_bounds(way: str) -> None:
             return np.asarray(((rectangles.lower <= points[:, None]) & (points[:, None] <= rectangles.upper)).all(axis=2))
 
         rows = [rectangles[[row]] for row in range(7)]
-        found = (
+        outcomes = (
             minimal_outliers([WithComplement(row) for row in rows], SEARCHED, 0.1)
             if way == "complement"
             else minimal_outliers(
                 Rectangles(rectangles) if way == "family" else [Inside(row) for row in rows], SEARCHED, 0.1, satisfied=satisfied
             )
         )
-        assert found[:2] == expected[:2]
-        assert (found.witness == expected.witness).all()
-        assert found.nodes == expected.nodes
+        assert outcomes[:2] == expected[:2]
+        assert (outcomes.witness == expected.witness).all()
+        assert outcomes.nodes == expected.nodes
 
 
 def test_it_needs_fewer_nodes_than_raising_q_until_a_solution_appears() -> None:
@@ -129,30 +129,30 @@ def test_it_needs_fewer_nodes_than_raising_q_until_a_solution_appears() -> None:
     for seed in range(5):
         rectangles = random_rectangles(np.random.default_rng(seed), 9)
         constraints = separators(rectangles)
-        found = minimal_outliers(constraints, SEARCHED, 0.1)
-        searched += found.nodes
-        for q in range(found.q_high + 1):
+        outcome = minimal_outliers(constraints, SEARCHED, 0.1)
+        searched += outcome.nodes
+        for q in range(outcome.q_high + 1):
             paving = pave(relaxed(constraints, outliers=q), SEARCHED, 0.1)
             nodes += paving.nodes
             # Below q_low the relaxed problem has no solution that could be proved; at q_high it has one.
-            assert q >= found.q_low or not len(paving.inner)
-            assert q < found.q_high or paving.contains(found.witness.tolist())
+            assert q >= outcome.q_low or not len(paving.inner)
+            assert q < outcome.q_high or paving.contains(outcome.witness.tolist())
     assert searched < nodes
 
 
 def test_the_result_does_not_depend_on_the_number_of_threads() -> None:
     rectangles = random_rectangles(np.random.default_rng(3), 40)
-    found = []
+    outcomes = []
     try:
         for count in (1, 2, 3):
             set_threads(count)
-            found.append(minimal_outliers(separators(rectangles), SEARCHED, 0.01))
+            outcomes.append(minimal_outliers(separators(rectangles), SEARCHED, 0.01))
     finally:
         set_threads(None)
-    for other in found[1:]:
-        assert other[:2] == found[0][:2]
-        assert (other.witness == found[0].witness).all()
-        assert other.nodes == found[0].nodes
+    for other in outcomes[1:]:
+        assert other[:2] == outcomes[0][:2]
+        assert (other.witness == outcomes[0].witness).all()
+        assert other.nodes == outcomes[0].nodes
 
 
 def test_limits_widen_the_bounds_and_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -187,9 +187,9 @@ def test_limits_widen_the_bounds_and_are_named(monkeypatch: pytest.MonkeyPatch) 
 
 
 def test_constraints_that_hold_nowhere_all_fail() -> None:
-    found = minimal_outliers(separators(Boxes.of([(20, 21), (0, 1)], [(-5, -4), (0, 1)])), SEARCHED, 0.1)
-    assert found[:2] == (2, 2)
-    assert found.nodes == 1
+    outcome = minimal_outliers(separators(Boxes.of([(20, 21), (0, 1)], [(-5, -4), (0, 1)])), SEARCHED, 0.1)
+    assert outcome[:2] == (2, 2)
+    assert outcome.nodes == 1
 
 
 def test_unbounded_boxes_and_several_boxes_are_searched() -> None:

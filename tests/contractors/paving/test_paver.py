@@ -192,14 +192,14 @@ def test_a_paving_just_within_the_limit_is_not_called_limited() -> None:
 
 def test_the_result_does_not_depend_on_the_number_of_threads(threads: Callable[[int | None], None]) -> None:
     for limit in (300, UNLIMITED):
-        found = []
+        pavings = []
         for count in (1, 2, 3):
             threads(count)
-            found.append(pave(Ring(np.array([0.3, 0.1]), 0.5, 1.7), Boxes.of([(-3, 3), (-3, 3)]), np.full(2, 0.03), max_boxes=limit))
-        for other in found[1:]:
-            assert other.boxes.lower.tobytes() == found[0].boxes.lower.tobytes()
-            assert other.boxes.upper.tobytes() == found[0].boxes.upper.tobytes()
-            assert (other.limited, other.nodes) == (found[0].limited, found[0].nodes)
+            pavings.append(pave(Ring(np.array([0.3, 0.1]), 0.5, 1.7), Boxes.of([(-3, 3), (-3, 3)]), np.full(2, 0.03), max_boxes=limit))
+        for other in pavings[1:]:
+            assert other.boxes.lower.tobytes() == pavings[0].boxes.lower.tobytes()
+            assert other.boxes.upper.tobytes() == pavings[0].boxes.upper.tobytes()
+            assert (other.limited, other.nodes) == (pavings[0].limited, pavings[0].nodes)
 
 
 @pytest.mark.parametrize("batch", [1, 2, 3, 64, 1000])
@@ -317,10 +317,10 @@ def test_every_order_and_rule_covers_every_solution_with_small_boxes(order: Orde
 
 @pytest.mark.parametrize("rule", RULES, ids=["largest", "round_robin", "weights"])
 def test_the_order_changes_only_the_order(rule: Rule) -> None:
-    found = [pave(Ring(np.array([0.3, 0.1]), 0.9, 1.1), Boxes.of([(-3, 3), (-2, 3)]), 0.05, order=order, rule=rule) for order in ORDERS]
-    for paving in found[1:]:
-        assert as_set(paving.boxes) == as_set(found[0].boxes)
-        assert (len(paving.boxes), paving.nodes) == (len(found[0].boxes), found[0].nodes)
+    pavings = [pave(Ring(np.array([0.3, 0.1]), 0.9, 1.1), Boxes.of([(-3, 3), (-2, 3)]), 0.05, order=order, rule=rule) for order in ORDERS]
+    for paving in pavings[1:]:
+        assert as_set(paving.boxes) == as_set(pavings[0].boxes)
+        assert (len(paving.boxes), paving.nodes) == (len(pavings[0].boxes), pavings[0].nodes)
 
 
 def test_the_sides_are_cut_as_the_rule_says() -> None:
@@ -414,14 +414,14 @@ def test_a_contractor_is_a_separator_that_proves_nothing_inside() -> None:
 @pytest.mark.parametrize("order", ORDERS, ids=["depth", "breadth", "best", "key"])
 def test_a_separator_paving_does_not_depend_on_the_number_of_threads(order: Order, threads: Callable[[int | None], None]) -> None:
     ring = Ring(np.array([0.3, 0.1]), 0.5, 1.7)
-    found = []
+    pavings = []
     for count in (1, 2, 3):
         threads(count)
-        found.append(pave(Separator(inner=Inverted(ring), outer=ring), Boxes.of([(-3, 3), (-3, 3)]), 0.004, order=order, batch=1 << 15))
-    for other in found[1:]:
+        pavings.append(pave(Separator(inner=Inverted(ring), outer=ring), Boxes.of([(-3, 3), (-3, 3)]), 0.004, order=order, batch=1 << 15))
+    for other in pavings[1:]:
         for part in ("inner", "boundary"):
-            assert getattr(other, part).lower.tobytes() == getattr(found[0], part).lower.tobytes()
-            assert getattr(other, part).upper.tobytes() == getattr(found[0], part).upper.tobytes()
+            assert getattr(other, part).lower.tobytes() == getattr(pavings[0], part).lower.tobytes()
+            assert getattr(other, part).upper.tobytes() == getattr(pavings[0], part).upper.tobytes()
 
 
 def test_a_limit_on_memory_keeps_the_boxes_within_it() -> None:

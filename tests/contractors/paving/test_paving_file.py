@@ -19,10 +19,10 @@ def test_bounds_are_kept_bit_for_bit(rows: int, tmp_path: Path) -> None:
     write(tmp_path / "paving", inner, boundary, "time", 2**40)
     assert [file.name for file in tmp_path.iterdir()] == ["paving"]
     found_inner, found_boundary, limited, nodes = read(tmp_path / "paving")
-    for found, given in ((found_inner, inner), (found_boundary, boundary)):
-        assert found.lower.tobytes() == given.lower.tobytes()
-        assert found.upper.tobytes() == given.upper.tobytes()
-        assert found.dimension == 3
+    for kept, given in ((found_inner, inner), (found_boundary, boundary)):
+        assert kept.lower.tobytes() == given.lower.tobytes()
+        assert kept.upper.tobytes() == given.upper.tobytes()
+        assert kept.dimension == 3
     assert (limited, nodes) == ("time", 2**40)
 
 
@@ -47,12 +47,12 @@ def test_a_file_with_a_flipped_byte_is_refused_or_unchanged_in_what_it_says(tmp_
         broken[at] ^= 0x10
         path.write_bytes(broken)
         try:
-            found = read(path)
+            again = read(path)
         except PavingError:
             refused += 1
         else:
-            assert found[0].lower.tobytes() == inner.lower.tobytes()
-            assert found[1].upper.tobytes() == boundary.upper.tobytes()
+            assert again[0].lower.tobytes() == inner.lower.tobytes()
+            assert again[1].upper.tobytes() == boundary.upper.tobytes()
     assert refused > 200
 
 

@@ -15,10 +15,10 @@ def cells(*numbers: float) -> Cells:
     return Cells(Boxes(lower, lower + 1.0), (lower[:, 0] % 7).astype(np.int16))
 
 
-def numbers(found: Cells) -> list[float]:
-    assert (found.boxes.upper == found.boxes.lower + 1.0).all()
-    assert (found.last == found.boxes.lower[:, 0] % 7).all()
-    return [float(number) for number in found.boxes.lower[:, 0]]
+def numbers(cells: Cells) -> list[float]:
+    assert (cells.boxes.upper == cells.boxes.lower + 1.0).all()
+    assert (cells.last == cells.boxes.lower[:, 0] % 7).all()
+    return [float(number) for number in cells.boxes.lower[:, 0]]
 
 
 def test_a_stack_finishes_what_came_last() -> None:

@@ -46,13 +46,13 @@ def exact_roots() -> list[list[object]]:
 
 
 def test_the_zeros_of_a_system_are_found_certified_and_tight() -> None:
-    found = zeros(circle_and_exponential(), Boxes.of([(-10, 10), (-10, 10)]), 0.01)
-    assert len(found.unique) == 2
-    assert not len(found.undecided)
-    assert not found.limited
-    assert (found.unique.width() < 1e-14).all()
+    solutions = zeros(circle_and_exponential(), Boxes.of([(-10, 10), (-10, 10)]), 0.01)
+    assert len(solutions.unique) == 2
+    assert not len(solutions.undecided)
+    assert not solutions.limited
+    assert (solutions.unique.width() < 1e-14).all()
     for root in exact_roots():
-        assert inside(found.unique, root)
+        assert inside(solutions.unique, root)
 
 
 def test_what_is_proved_of_boxes() -> None:
@@ -71,10 +71,10 @@ def test_what_is_proved_of_boxes() -> None:
 def test_the_zero_of_a_linear_function_is_proved_on_the_whole_line_and_that_of_another_is_not() -> None:
     x, y = variables("x y")
     plane = Boxes.of([(-INF, INF), (-INF, INF)])
-    found = certify(Function(x + y - 3, x - y - 1), plane)
-    assert found.unique.tolist() == [True]
-    assert found.boxes.contain([2.0, 1.0]).all()
-    assert (found.boxes.width() < 1e-12).all()
+    certified = certify(Function(x + y - 3, x - y - 1), plane)
+    assert certified.unique.tolist() == [True]
+    assert certified.boxes.contain([2.0, 1.0]).all()
+    assert (certified.boxes.width() < 1e-12).all()
     bent = certify(Function(x + y - 3, x - y - 1 + 0.01 * x * y), plane)
     assert bent.unknown.tolist() == [True]
 
@@ -86,18 +86,18 @@ def test_multiple_zeros_stay_unknown(make: object) -> None:
     x = variables("x")
     function = Function(make(x))  # type: ignore[operator]
     assert not certify(function, Boxes.of([(-0.5, 0.7)], [(0.5, 1.7)], [(-3.0, 3.0)])).unique.any()
-    found = zeros(function, Boxes.of([(-2, 3)]), 1e-3)
-    assert not len(found.unique)
+    solutions = zeros(function, Boxes.of([(-2, 3)]), 1e-3)
+    assert not len(solutions.unique)
     root = 0.0 if function.image(Boxes.of([(0, 0)])).contain([0.0])[0] else 1.0
-    assert inside(found.undecided, [root])
+    assert inside(solutions.undecided, [root])
 
 
 def test_two_dimensional_multiple_zeros_stay_unknown() -> None:
     x, y = variables("x y")
     tangent = Function(x**2 + y**2 - 1, x - 1)  # the line touches the circle
-    found = zeros(tangent, Boxes.of([(-2, 2), (-2, 2)]), 1e-4)
-    assert not len(found.unique)
-    assert inside(found.undecided, [1.0, 0.0])
+    solutions = zeros(tangent, Boxes.of([(-2, 2), (-2, 2)]), 1e-4)
+    assert not len(solutions.unique)
+    assert inside(solutions.undecided, [1.0, 0.0])
     line = Function(x + y, 2 * x + 2 * y)  # singular everywhere: a whole line of zeros
     certificate = certify(line, Boxes.of([(-1, 1), (-1, 1)]))
     assert certificate.unknown.all()
@@ -107,8 +107,8 @@ def test_two_dimensional_multiple_zeros_stay_unknown() -> None:
 def test_no_zero_is_proved() -> None:
     x, y = variables("x y")
     assert certify(Function(x**2 + y**2 + 1, x - y), Boxes.of([(-5, 5), (-5, 5)])).none.all()
-    found = zeros(Function(x * y - 1, x + y - 1), Boxes.of([(-50, 50), (-50, 50)]), 1e-3)
-    assert len(found.unique) == len(found.undecided) == 0
+    solutions = zeros(Function(x * y - 1, x + y - 1), Boxes.of([(-50, 50), (-50, 50)]), 1e-3)
+    assert len(solutions.unique) == len(solutions.undecided) == 0
 
 
 def test_a_jump_is_no_zero() -> None:
@@ -139,12 +139,12 @@ def test_a_zero_on_the_border_of_the_box_is_undecided_and_one_beyond_is_not_foun
 
 def test_zeros_on_the_cuts_of_bisection_are_found_once() -> None:
     x, y = variables("x y")
-    found = zeros(Function(sin(math.pi * x), sin(math.pi * y)), Boxes.of([(-2.5, 2.5), (-2.5, 2.5)]), 0.05)
-    assert len(found.unique) == 25
-    assert not len(found.undecided)
+    solutions = zeros(Function(sin(math.pi * x), sin(math.pi * y)), Boxes.of([(-2.5, 2.5), (-2.5, 2.5)]), 0.05)
+    assert len(solutions.unique) == 25
+    assert not len(solutions.undecided)
     for i in range(-2, 3):
         for j in range(-2, 3):
-            assert (np.abs(found.unique.midpoint() - [i, j]).max(axis=1) < 1e-12).sum() == 1
+            assert (np.abs(solutions.unique.midpoint() - [i, j]).max(axis=1) < 1e-12).sum() == 1
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -152,16 +152,16 @@ def test_random_polynomials_have_the_zeros_that_numpy_finds(seed: int) -> None:
     random = np.random.default_rng(seed)
     coefficients = np.poly(random.uniform(-3, 3, int(random.integers(1, 6)))) if seed % 2 else random.normal(size=6)
     x = variables("x")
-    found = zeros(Function(polynomial(x, coefficients.tolist())), Boxes.of([(-4, 4)]), 1e-4)
+    solutions = zeros(Function(polynomial(x, coefficients.tolist())), Boxes.of([(-4, 4)]), 1e-4)
     with mpmath.workdps(60):
         roots = mpmath.polyroots([mpmath.mpf(c) for c in coefficients[::-1].tolist()], asc=True, maxsteps=500, extraprec=300)
         real = [root.real for root in map(mpmath.mpc, roots) if abs(root.imag) < mpmath.mpf(10) ** -40 and abs(root.real) < 4]
-        assert all(inside(found.unique, [root]) or inside(found.undecided, [root]) for root in real)
-        assert len(found.unique) <= len(real)
-        for low, high in zip(found.unique.lower[:, 0].tolist(), found.unique.upper[:, 0].tolist(), strict=True):
+        assert all(inside(solutions.unique, [root]) or inside(solutions.undecided, [root]) for root in real)
+        assert len(solutions.unique) <= len(real)
+        for low, high in zip(solutions.unique.lower[:, 0].tolist(), solutions.unique.upper[:, 0].tolist(), strict=True):
             assert sum(low <= root <= high for root in real) == 1
-    if not len(found.undecided):
-        assert len(found.unique) == len(real)
+    if not len(solutions.undecided):
+        assert len(solutions.unique) == len(real)
 
 
 @given(st.integers(0, 10**6))

@@ -76,8 +76,8 @@ def test_what_does_not_fit_is_refused() -> None:
 def test_propagation_reaches_through_chains_of_constraints_and_half_bounded_domains() -> None:
     x = variables("x[30]")
     chain = [x[i + 1] == x[i] + 1 for i in range(29)]
-    found = Problem(x, {x[0]: (0, INF), x[29]: (-INF, 30)}, chain[::-1]).propagate()
-    assert all(found[f"x[{i}]"] == Interval(i, i + 1) for i in range(30))
+    domains = Problem(x, {x[0]: (0, INF), x[29]: (-INF, 30)}, chain[::-1]).propagate()
+    assert all(domains[f"x[{i}]"] == Interval(i, i + 1) for i in range(30))
 
 
 def test_slow_and_endless_propagation_ends() -> None:
@@ -107,9 +107,9 @@ def test_only_what_is_affected_is_contracted_again() -> None:
     x, y, z = variables("x y z")
     members = [Spy("xy", x == y, (0, 1)), Spy("yz", y == z, (1, 2)), Spy("z", z <= 1.0, (2,))]
     boxes = Boxes.of([(0, 2), (0, 2), (0, 2)], [(0, 1), (0, 1), (0, 1)], [(0, 1), (3, 4), (0, 1)])
-    found = Propagation(*members).contract(boxes)
-    assert found.upper[:2].max() == 1.0
-    assert found.empty.tolist() == [False, False, True]
+    narrowed = Propagation(*members).contract(boxes)
+    assert narrowed.upper[:2].max() == 1.0
+    assert narrowed.empty.tolist() == [False, False, True]
     # z narrows the first box: yz, and then xy, and each once more since a spy may gain from a second time.
     assert calls[:3] == [("xy", 3), ("yz", 2), ("z", 2)]
     assert set(calls[3:]) <= {("xy", 1), ("yz", 1), ("z", 1)}
@@ -148,13 +148,13 @@ def test_no_solution_is_lost_and_rows_do_not_depend_on_each_other(seed: int) -> 
     problem = Problem((x, y, z), {variable: (value - random.random(), value + 1) for variable, value in points.items()}, constraints)
     assert all(value in domain for value, domain in zip(at, problem.propagate().values(), strict=True))
     boxes = Boxes(at - random.random((20, 3)), at + random.random((20, 3)))
-    found = problem.contract(boxes)
-    assert found.contain(at.tolist()).all()
-    assert found.subset(boxes).all()
+    narrowed = problem.contract(boxes)
+    assert narrowed.contain(at.tolist()).all()
+    assert narrowed.subset(boxes).all()
     order = random.permutation(20)
     again = problem.contract(boxes[order])
-    assert again.lower.tobytes() == found.lower[order].tobytes()
-    assert again.upper.tobytes() == found.upper[order].tobytes()
+    assert again.lower.tobytes() == narrowed.lower[order].tobytes()
+    assert again.upper.tobytes() == narrowed.upper[order].tobytes()
 
 
 def test_solve_covers_the_solutions_tightly_and_passes_options_on() -> None:
@@ -193,16 +193,16 @@ def test_a_conflict_is_irreducible(seed: int) -> None:
     problem = conflicting(seed)
     if len(problem.solve(0.05).boxes):
         pytest.fail("choose another seed")
-    found = problem.why_empty(0.05)
-    assert 1 <= len(found) < 9
-    assert [each for each in problem.constraints if any(each is one for one in found)] == list(found)
+    conflict = problem.why_empty(0.05)
+    assert 1 <= len(conflict) < 9
+    assert [each for each in problem.constraints if any(each is one for one in conflict)] == list(conflict)
 
     def boxes(constraints: list[object]) -> Boxes:
         return Problem(variables_of(problem), problem.box, constraints).solve(0.05).boxes
 
-    assert not len(boxes(list(found)))
-    for left_out in range(len(found)):
-        assert len(boxes([*found[:left_out], *found[left_out + 1 :]]))
+    assert not len(boxes(list(conflict)))
+    for left_out in range(len(conflict)):
+        assert len(boxes([*conflict[:left_out], *conflict[left_out + 1 :]]))
 
 
 def variables_of(problem: Problem) -> list[object]:
@@ -242,9 +242,9 @@ def test_families_count_as_one_constraint() -> None:
     beacons = np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]])
     ranges = Boxes.around(np.hypot(*(beacons - [1.0, 2.0]).T), 0.01)
     family = sqrt((x - beacons[:, 0]) ** 2 + (y - beacons[:, 1]) ** 2) == ranges
-    found = Problem((x, y), {x: (-9, 9), y: (-9, 9)}, [family]).solve(0.01)
-    assert found.contains([1.0, 2.0])
-    assert (np.abs(found.boxes.midpoint() - [1.0, 2.0]) < 0.05).all()
+    paving = Problem((x, y), {x: (-9, 9), y: (-9, 9)}, [family]).solve(0.01)
+    assert paving.contains([1.0, 2.0])
+    assert (np.abs(paving.boxes.midpoint() - [1.0, 2.0]) < 0.05).all()
     assert Problem((x, y), {x: (-9, 9), y: (5, 9)}, [x <= 9, family]).why_empty(0.01) == (family,)
 
 

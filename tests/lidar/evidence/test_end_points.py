@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from ial.contractors.boxes import FloatArray
 from ial.contractors.intervals.trigonometric import PI_UPPER
 from ial.lidar.evidence.end_points import relative_bounds
+from ial.lidar.evidence.evidence import Evidence
 from ial.lidar.margins import MARGIN, NEAR, REACH
 
 DIGITS = 50
@@ -29,9 +30,8 @@ def bounds_of(
     """The four bounds of one beam, whose direction is given as an angle."""
     out = np.empty((1, 4))
     unit = np.array([[math.cos(direction), math.sin(direction)]])
-    relative_bounds(
-        lower, upper, np.array([end]), unit, np.array([error]), of_map.get("map_error", 0.0), of_map.get("resolution", 0.05), out
-    )
+    evidence = Evidence(np.array([end]), unit, np.array([error]), of_map.get("map_error", 0.0), 0)
+    relative_bounds(lower, upper, evidence, of_map.get("resolution", 0.05), out)
     return out[0]
 
 

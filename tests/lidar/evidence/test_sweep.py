@@ -78,9 +78,9 @@ def test_the_motion_to_the_last_beam_is_that_to_a_scan_without_its_part() -> Non
     path = driven(way(0.3, 0.5), [0.0, 0.3, 0.6, 1.0], np.random.default_rng(2))
     whole = WHEELS.along(path)
     widths = (whole.upper - whole.lower) - 0.6
-    found = sweep_boxes(path, WHEELS, 20)[-1]
-    assert found[:, 1] - found[:, 0] == pytest.approx(widths, abs=2 * 0.16 * 0.2 * 0.3)
-    assert (found[:, 1] - found[:, 0] >= widths - SLACK).all()
+    box = sweep_boxes(path, WHEELS, 20)[-1]
+    assert box[:, 1] - box[:, 0] == pytest.approx(widths, abs=2 * 0.16 * 0.2 * 0.3)
+    assert (box[:, 1] - box[:, 0] >= widths - SLACK).all()
 
 
 @pytest.mark.parametrize(("length", "turn"), WAYS)

@@ -32,7 +32,7 @@ class Case:
         mask = world.mask.repeat(split, axis=0).repeat(split, axis=1)
         self.occupied = CellIndex(mask, world.resolution / split)
         self.domain = CellIndex(np.ones_like(mask), world.resolution / split, compact=True)
-        self.lattice = Lattice(parts * self.occupied.resolution, float(random.choice([0.02, 0.2])), parts)
+        self.lattice = Lattice(parts * self.occupied.cells.resolution, float(random.choice([0.02, 0.2])), parts)
         at = np.array([world.pose.x, world.pose.y, world.pose.theta])
         around = random.uniform(0.0, 4.0, 3) * self.lattice.widths
         self.bitmaps = self.lattice.bitmaps(Boxes((at - around)[None], (at + random.uniform(0.0, 4.0, 3) * self.lattice.widths)[None]))
@@ -45,10 +45,10 @@ class Case:
 
     def holding_the_pose(self, cells: Boxes) -> np.ndarray:
         pose = self.world.pose
-        found = np.zeros(len(cells), dtype=np.bool_)
+        inside = np.zeros(len(cells), dtype=np.bool_)
         for turn in (-2.0 * np.pi, 0.0, 2.0 * np.pi):
-            found |= cells.contain([pose.x, pose.y, pose.theta + turn])
-        return found
+            inside |= cells.contain([pose.x, pose.y, pose.theta + turn])
+        return inside
 
 
 @pytest.mark.slow
@@ -81,8 +81,8 @@ def test_cells_are_kept_like_boxes_of_their_parts() -> None:
             lower = cells.lower + shares * widths
             upper = lower + widths / (lattice.parts, lattice.parts, 2)
             expected |= scan.fits(Boxes(lower, upper)) & case.domain.meet(Boxes(lower[:, :2] - 1e-6, upper[:, :2]))
-        found, _ = case.count(most)
-        names = {tuple(row) for row in found.lower.tolist()}
+        together, _ = case.count(most)
+        names = {tuple(row) for row in together.lower.tolist()}
         for row, wanted in zip(cells.lower.tolist(), expected.tolist(), strict=True):
             assert tuple(row) in names or not wanted, f"world {seed} lost a cell"
             more += tuple(row) in names and not wanted

@@ -12,7 +12,7 @@ from ial.lidar.configuration.config import Bounds, FreeSpace, LocalizerConfig, P
 from ial.lidar.evidence.beams import scan_beams, select_beams
 from ial.lidar.localizer import Localizer
 from ial.lidar.search.bit_columns import BitColumns, read_bits
-from ial.lidar.search.free_space import blocked, count_blocked
+from ial.lidar.search.free_space import BlockingCells, blocked, count_blocked
 from ial.maps.grids.cell_index import CellIndex
 from ial.maps.grids.floor_plan import floor_plan
 from ial.maps.grids.occupancy_grid import FREE, OCCUPIED
@@ -28,7 +28,7 @@ NO_LASER_OFFSET = (0.0, 0.0, 0.0, 0.0)
 def is_blocked(mask: np.ndarray, box: tuple[float, ...], low: float, high: float, length: float, margin: float) -> bool:
     index, bits = CellIndex(mask, 1.0), BitColumns(mask)
     ray = (math.cos(low), math.sin(low), math.cos(high), math.sin(high), length)
-    return bool(blocked(box, NO_LASER_OFFSET, ray, margin, index.table, bits.upwards, bits.rightwards))
+    return bool(blocked(box, NO_LASER_OFFSET, ray, margin, BlockingCells(index.cells, bits.upwards, bits.rightwards)))
 
 
 def random_mask(random: np.random.Generator) -> np.ndarray:
@@ -46,7 +46,7 @@ def random_mask(random: np.random.Generator) -> np.ndarray:
 
 @pytest.mark.slow
 def test_every_ray_of_a_blocked_strip_meets_a_cell() -> None:
-    found = tried = 0
+    barred = tried = 0
     for seed in range(3000):
         random = np.random.default_rng(seed)
         mask = random_mask(random)
@@ -60,7 +60,7 @@ def test_every_ray_of_a_blocked_strip_meets_a_cell() -> None:
         tried += 1
         if not is_blocked(mask, box, low, high, length, margin):
             continue
-        found += 1
+        barred += 1
         count = 200
         ends = random.integers(0, 2, (4, count)).astype(float)
         inside = random.random((4, count))
@@ -71,7 +71,7 @@ def test_every_ray_of_a_blocked_strip_meets_a_cell() -> None:
         y = box[1] + share[3] * size[1] + aside * np.cos(angle)
         distance = cast_rays(mask, 1.0, x, y, angle)
         assert (distance <= length + 1e-6).all(), f"seed {seed}: a ray gets {distance.max()} cells far"
-    assert found > 0.15 * tried
+    assert barred > 0.15 * tried
 
 
 @pytest.mark.parametrize("turn", [0.0, 0.3, 0.7, math.pi / 4, 1.2, math.pi / 2, 2.5, math.pi, -2.0, -math.pi / 2])
@@ -115,13 +115,13 @@ def test_blocked_beams_and_beams_without_return_count_once_each() -> None:
     assert (len(beams), (beams.rays.beams < 0).sum()) == (60, 5)
     box = Boxes.of([(x - 0.01, x + 0.01), (y - 0.01, y + 0.01), (-0.002, 0.002)])
     hits = select_beams(scan, bounds, 5, 180)
-    (found,) = count_blocked(box, np.zeros(1, np.int16), beams, 2, index, bits)
+    (bad,) = count_blocked(box, np.zeros(1, np.int16), beams, 2, index, bits)
     (short,) = count_blocked(
         box, np.zeros(1, np.int16), select_beams(scan, bounds, 5, 180, FreeSpace(True, 0.02, 180, 0.05)), 2, index, bits
     )
     assert len(hits) == 55
-    assert 12 <= found <= 15  # ten behind a wall, bad once each although some end in a cell, and five that see through walls
-    assert found - 5 == short  # beams without return that claim nothing beyond 5 cm are blocked nowhere
+    assert 12 <= bad <= 15  # ten behind a wall, bad once each although some end in a cell, and five that see through walls
+    assert bad - 5 == short  # beams without return that claim nothing beyond 5 cm are blocked nowhere
 
 
 def test_an_endless_ray_and_a_bearing_that_may_be_anything_are_bounded() -> None:
@@ -183,8 +183,8 @@ def test_a_ray_ends_before_the_wall_by_the_error_and_by_the_margin(
     scan = LaserScan(0, np.array([reading], np.float32), bearing, 0.1)
     beams = select_beams(scan, Bounds(range_error, 0.0, 0.0), 0, 180, FreeSpace(True, margin))
     box = Boxes.of([(2.0, 2.0), (6.0, 6.0), (0.0, 1e-9)])
-    found = count_blocked(box, np.zeros(1, np.int16), beams, 2, CellIndex(wall, 0.05), BitColumns(wall))
-    assert found.tolist() == [count]
+    bad = count_blocked(box, np.zeros(1, np.int16), beams, 2, CellIndex(wall, 0.05), BitColumns(wall))
+    assert bad.tolist() == [count]
 
 
 @pytest.mark.parametrize("bearing", [0.0, 1.6, -2.5])

@@ -211,11 +211,11 @@ def test_a_heading_a_bit_beyond_the_edge_of_a_layer_takes_the_layer_behind_it(he
     lattice = Lattice(1.0, heading)
     edges = layer_edges(lattice.layers)[1:-1]
     for start, stop in ((np.nextafter(edges, -9.0), edges), (edges, np.nextafter(edges, 9.0)), (edges, edges)):
-        found = np.array(
+        layers = np.array(
             [[hull.lower[0, 2], hull.upper[0, 2]] for hull in (_around(lattice, *each) for each in zip(start, stop, strict=True))]
         )
-        assert (found[:, 0] <= start).all()
-        assert (found[:, 1] >= stop).all()
+        assert (layers[:, 0] <= start).all()
+        assert (layers[:, 1] >= stop).all()
 
 
 @pytest.mark.slow

@@ -75,15 +75,15 @@ def test_answers_do_not_depend_on_sections(seed: int, outliers: int | str, small
     assert [len(each.model.sections.universe) for each in (whole, in_sections)] == [1, 12]
     statuses = []
     for pose, step in zip(*drive(seed), strict=True):
-        expected, found = whole.update(step.motion, step.scan), in_sections.update(step.motion, step.scan)
-        assert named(found.poses) == named(expected.poses)
-        assert found.poses.contains(world().pose_to_grid(pose))
-        assert (found.status, len(found.hypotheses), found.outliers_allowed) == (
+        expected, estimate = whole.update(step.motion, step.scan), in_sections.update(step.motion, step.scan)
+        assert named(estimate.poses) == named(expected.poses)
+        assert estimate.poses.contains(world().pose_to_grid(pose))
+        assert (estimate.status, len(estimate.hypotheses), estimate.outliers_allowed) == (
             expected.status,
             len(expected.hypotheses),
             expected.outliers_allowed,
         )
-        statuses.append(found.status)
+        statuses.append(estimate.status)
         assert in_sections.locate(step.scan).poses.boxes.volume() == pytest.approx(whole.locate(step.scan).poses.boxes.volume())
     assert "lost" in statuses
     assert len(in_sections.model.sections._made) == 4
@@ -98,10 +98,10 @@ def test_a_hypothesis_that_lies_in_several_sections_is_refined_in_each(small_sec
     recording = simulate(world(), path, LIDAR, SensorErrors(0.03, 0.0, 4), MOTION, 1).recording
     across = 0
     for pose, step in zip(path, steps(recording, MOTION), strict=True):
-        found = localizer.update(step.motion, step.scan)
-        assert found.poses.contains(world().pose_to_grid(pose))
+        estimate = localizer.update(step.motion, step.scan)
+        assert estimate.poses.contains(world().pose_to_grid(pose))
         across += len(list(localizer.model.sections.parts(localizer.poses.boxes))) > 1
-        assert found.poses.boxes.volume() < localizer.poses.boxes.volume()
+        assert estimate.poses.boxes.volume() < localizer.poses.boxes.volume()
     assert across >= 3
 
 
@@ -109,10 +109,10 @@ def test_a_limit_leaves_a_coarser_answer_with_the_truth_in_it(small_sections: No
     config = LocalizerConfig(bounds=CONFIG.bounds, outliers=5, max_boxes=300)
     localizer = Localizer(world(), config=config)
     pose, step = drive(1)[0][0], drive(1)[1][0]
-    found = localizer.update(None, step.scan)
-    assert found.limited == "boxes"
-    assert len(found.poses) <= 2 * 300
-    assert found.poses.contains(world().pose_to_grid(pose))
+    estimate = localizer.update(None, step.scan)
+    assert estimate.limited == "boxes"
+    assert len(estimate.poses) <= 2 * 300
+    assert estimate.poses.contains(world().pose_to_grid(pose))
 
 
 def test_a_section_holds_every_end_of_a_beam(small_sections: None) -> None:
@@ -123,8 +123,8 @@ def test_a_section_holds_every_end_of_a_beam(small_sections: None) -> None:
         ((key, _, _),) = list(model.sections.parts(Boxes.of([(pose.x, pose.x), (pose.y, pose.y), (0.0, 0.0)])))
         occupied = model.sections[key].occupied
         far = np.hypot(*beams.ends.T).max() + 0.05
-        rows, columns = (size - 1 for size in occupied.table.shape)
-        low_row, low_column = occupied.origin
+        rows, columns = (size - 1 for size in occupied.cells.table.shape)
+        low_row, low_column = occupied.cells.origin
         for low, size, at, cells in ((low_row, rows, pose.y, world().rows), (low_column, columns, pose.x, world().columns)):
             assert low == 0 or low * 0.05 <= at - far
             assert low + size == cells or (low + size) * 0.05 >= at + far
@@ -201,7 +201,7 @@ def test_beams_that_reach_across_the_map_are_no_trouble(small_sections: None) ->
     model = Localizer(OccupancyGrid(cells, 0.05), config=CONFIG).model
     ends = np.array([[14.0, 0.0], [0.0, 14.0]])
     model.sections.reach(Beams(ends, ends / 14.0, np.zeros((2, 2)), 0, map_error_m=0.01))
-    assert model.sections[0, 0].occupied.table.shape == (301, 301)
+    assert model.sections[0, 0].occupied.cells.table.shape == (301, 301)
 
 
 @pytest.mark.slow
@@ -266,9 +266,9 @@ def test_a_robot_is_found_near_the_end_of_a_long_map_however_its_cells_are_split
     lidar = Lidar(beams=40, angle_min=-math.pi, angle_increment=math.pi / 20.0, range_max=6.0)
     recording = simulate(grid, [pose, pose], lidar, SensorErrors(0.005, 0.001), MOTION, 1).recording
     for step in steps(recording, MOTION):
-        found = localizer.update(step.motion, step.scan).poses
-        assert found.contains(pose)
-        assert (np.abs(found.boxes.midpoint()[:, :2] - (pose.x, pose.y)) < 0.3).all()
+        poses = localizer.update(step.motion, step.scan).poses
+        assert poses.contains(pose)
+        assert (np.abs(poses.boxes.midpoint()[:, :2] - (pose.x, pose.y)) < 0.3).all()
 
 
 @pytest.mark.parametrize(

@@ -104,13 +104,13 @@ def test_no_boxes_stay_no_boxes() -> None:
 
 def test_the_number_of_threads_changes_no_bit() -> None:
     boxes, motion = random_boxes(np.random.default_rng(4), 5000), random_motion(np.random.default_rng(5))
-    found = []
+    outcomes = []
     for threads in (1, 2, 3):
         set_threads(threads)
         after = move(boxes, motion)
-        found.append((after.lower.tobytes(), after.upper.tobytes()))
+        outcomes.append((after.lower.tobytes(), after.upper.tobytes()))
     set_threads(None)
-    assert found[0] == found[1] == found[2]
+    assert outcomes[0] == outcomes[1] == outcomes[2]
 
 
 def test_boxes_that_follow_each_other_become_one_row_and_none_is_lost() -> None:
@@ -121,8 +121,8 @@ def test_boxes_that_follow_each_other_become_one_row_and_none_is_lost() -> None:
         for y in (0.0, 1.0):
             rows += [[(edges[at], edges[at + 1]), (y, y + 1.0), (0.0, 0.5)] for at in range(8) if random.random() < 0.7]
         boxes = Boxes.of(*rows, [(7.0, 9.0), (3.0, 4.0), (0.0, 0.5)])
-        found = in_rows(boxes)
-        assert len(found) <= len(boxes)
+        merged = in_rows(boxes)
+        assert len(merged) <= len(boxes)
         for lower, upper in zip(boxes.lower, boxes.upper, strict=True):
-            assert ((found.lower <= lower) & (upper <= found.upper)).all(axis=1).any()
-        assert found.volume() == pytest.approx(boxes.volume())
+            assert ((merged.lower <= lower) & (upper <= merged.upper)).all(axis=1).any()
+        assert merged.volume() == pytest.approx(boxes.volume())

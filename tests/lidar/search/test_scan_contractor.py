@@ -118,8 +118,8 @@ def test_as_many_outliers_as_hits_leave_a_box_as_it_is_however_many_beams_are_us
         assert used >= hits + 2
         for outliers in (hits, used - 1, used, 10**30):
             beams = with_silent_beams(world, outliers, 2)
-            found = ScanContractor(beams, world.index()).contract(boxes)
-            if not (np.array_equal(found.lower, boxes.lower) and np.array_equal(found.upper, boxes.upper)):
+            narrowed = ScanContractor(beams, world.index()).contract(boxes)
+            if not (np.array_equal(narrowed.lower, boxes.lower) and np.array_equal(narrowed.upper, boxes.upper)):
                 lost.append((seed, outliers))
             kept += 1
     assert not lost, f"{len(lost)} of {kept} calls changed a box, such as (world, outliers) {lost[:5]}"
@@ -131,10 +131,10 @@ def test_silent_beams_change_nothing_where_fewer_may_be_bad_than_hits() -> None:
         for outliers in range(0, len(world.hits()), 5):
             boxes = Boxes.concatenate([world.box_around(random) for _ in range(5)])
             plain = contractor(world, outliers).contract(boxes)
-            found = ScanContractor(with_silent_beams(world, outliers, 3), world.index()).contract(boxes)
-            assert np.array_equal(found.lower, plain.lower)
-            assert np.array_equal(found.upper, plain.upper)
-            narrowed += not np.array_equal(found.lower, boxes.lower)
+            with_silent = ScanContractor(with_silent_beams(world, outliers, 3), world.index()).contract(boxes)
+            assert np.array_equal(with_silent.lower, plain.lower)
+            assert np.array_equal(with_silent.upper, plain.upper)
+            narrowed += not np.array_equal(with_silent.lower, boxes.lower)
     assert narrowed > 50
 
 

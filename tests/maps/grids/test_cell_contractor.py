@@ -49,12 +49,12 @@ def scenes(draw: st.DrawFn) -> tuple[np.ndarray, float, tuple[Side, Side]]:
 @given(scenes())
 def test_the_outside_is_the_exact_hull_rounded_outward_once(scene: tuple[np.ndarray, float, tuple[Side, Side]]) -> None:
     mask, resolution, box = scene
-    found = (~CellContractor(CellIndex(mask, resolution))).contract(Boxes.of(box))
+    narrowed = (~CellContractor(CellIndex(mask, resolution))).contract(Boxes.of(box))
     exact = exact_outside(mask, resolution, box)
     if exact is None:
-        assert found.empty[0]
+        assert narrowed.empty[0]
         return
-    for lower, upper, (low, high), (first, last) in zip(found.lower[0].tolist(), found.upper[0].tolist(), exact, box, strict=True):
+    for lower, upper, (low, high), (first, last) in zip(narrowed.lower[0].tolist(), narrowed.upper[0].tolist(), exact, box, strict=True):
         assert first <= lower <= low < math.nextafter(lower, INF)
         assert math.nextafter(upper, -INF) < high <= upper <= last
 
@@ -110,7 +110,7 @@ def test_beyond_a_full_grid_the_outside_begins_at_its_exact_edge(resolution: flo
         outside = ~CellContractor(CellIndex(np.ones((3, columns), dtype=np.bool_), resolution))
         edge = columns * Fraction(resolution)
         middle = (1.5 * resolution, 1.5 * resolution)
-        found = outside.contract(Boxes.of([(0.5 * resolution, 99.0), middle]))
-        assert edge - Fraction(math.ulp(99.0)) <= Fraction(float(found.lower[0, 0])) <= edge
-        found = outside.contract(Boxes.of([(-1.0, 0.5 * resolution), middle]))
-        assert (found.lower[0, 0], found.upper[0, 0]) == (-1.0, 0.0)
+        narrowed = outside.contract(Boxes.of([(0.5 * resolution, 99.0), middle]))
+        assert edge - Fraction(math.ulp(99.0)) <= Fraction(float(narrowed.lower[0, 0])) <= edge
+        narrowed = outside.contract(Boxes.of([(-1.0, 0.5 * resolution), middle]))
+        assert (narrowed.lower[0, 0], narrowed.upper[0, 0]) == (-1.0, 0.0)

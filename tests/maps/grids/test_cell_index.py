@@ -63,10 +63,10 @@ def scenes(draw: st.DrawFn) -> tuple[np.ndarray, float, Box]:
 def test_meets_is_never_wrongly_false_and_wrongly_true_only_within_the_slack(scene: tuple[np.ndarray, float, Box]) -> None:
     mask, resolution, box = scene
     index = CellIndex(mask, resolution)
-    found = meets(index.table, index.origin, index.inverse_resolution, *box)
+    met = meets(index.cells, *box)
     if exact_hull(mask, resolution, box) is not None:
-        assert found
-    elif found:
+        assert met
+    elif met:
         assert exact_hull(mask, resolution, box, slack=Fraction(9 * ROUNDINGS * resolution)) is not None
 
 
@@ -76,12 +76,12 @@ def test_meets_is_never_wrongly_false_and_wrongly_true_only_within_the_slack(sce
 def test_contraction_is_the_exact_hull_rounded_outward_once(scene: tuple[np.ndarray, float, Box]) -> None:
     mask, resolution, box = scene
     xl, xu, yl, yu = box
-    found = CellContractor(CellIndex(mask, resolution)).contract(Boxes.of([(xl, xu), (yl, yu)]))
+    narrowed = CellContractor(CellIndex(mask, resolution)).contract(Boxes.of([(xl, xu), (yl, yu)]))
     exact = exact_hull(mask, resolution, box)
     if exact is None:
-        assert found.empty[0]
+        assert narrowed.empty[0]
         return
-    bounds = found.lower[0, 0], found.upper[0, 0], found.lower[0, 1], found.upper[0, 1]
+    bounds = narrowed.lower[0, 0], narrowed.upper[0, 0], narrowed.lower[0, 1], narrowed.upper[0, 1]
     for bound, best, outward in zip(bounds, exact, (-math.inf, math.inf) * 2, strict=True):
         inward = Fraction(math.nextafter(bound, -outward))
         assert inward < best <= bound if outward > 0 else bound <= best < inward
@@ -134,18 +134,18 @@ def test_touching_an_edge_far_from_the_corner_of_a_map_is_meeting(resolution: fl
     index = CellIndex(np.ones((1, 10), np.bool_), resolution / split, origin=(0, column - 10), whole=(1, column))
     for _ in range(100):
         left, right = (column - 10) * width, column * width
-        before, behind = float(left), float(right)  # the doubles beside them that still lie in the cells
+        before, past = float(left), float(right)  # the doubles beside them that still lie in the cells
         before = before if Fraction(before) >= left else math.nextafter(before, math.inf)
-        behind = behind if Fraction(behind) <= right else math.nextafter(behind, -math.inf)
+        past = past if Fraction(past) <= right else math.nextafter(past, -math.inf)
         far = float(random.uniform(0.0, 3.0)) * resolution
-        assert index.meet(Boxes.of([(before - far, before), (0.0, 0.0)], [(behind, behind + far), (0.0, 0.0)])).all()
+        assert index.meet(Boxes.of([(before - far, before), (0.0, 0.0)], [(past, past + far), (0.0, 0.0)])).all()
         beside = float(3 * ROUNDINGS * column * width)
-        assert not index.meet(Boxes.of([(before - far - beside, before - beside), (0.0, 0.0)], [(behind + beside, 1e9), (0.0, 0.0)])).any()
+        assert not index.meet(Boxes.of([(before - far - beside, before - beside), (0.0, 0.0)], [(past + beside, 1e9), (0.0, 0.0)])).any()
 
 
 def test_count_is_a_sum_over_the_cells() -> None:
     mask = np.random.default_rng(5).random((5, 7)) < 0.4
-    table = CellIndex(mask, 0.1).table
+    table = CellIndex(mask, 0.1).cells.table
     assert table.shape == (6, 8)
     assert table.dtype == np.int32
     for row0, row1 in itertools.combinations_with_replacement(range(6), 2):
@@ -157,16 +157,16 @@ def test_a_compact_table_counts_modulo_two_to_the_sixteen() -> None:
     mask = np.random.default_rng(7).random((300, 400)) < 0.9  # many more cells than 16 bits hold
     mask[100:200, 50:300] = False
     full, compact = CellIndex(mask, 0.1), CellIndex(mask, 0.1, compact=True)
-    assert compact.bordered.nbytes == full.bordered.nbytes // 2
-    assert (compact.bordered == full.bordered.astype(np.uint16)).all()
+    assert compact.cells.bordered.nbytes == full.cells.bordered.nbytes // 2
+    assert (compact.cells.bordered == full.cells.bordered.astype(np.uint16)).all()
     rng = np.random.default_rng(8)
     for _ in range(3000):
         (row0, row1), (column0, column1) = np.sort(rng.integers(0, 301, 2)), np.sort(rng.integers(0, 401, 2))
-        exact, found = (count(each.table, row0, row1, column0, column1) for each in (full, compact))
+        exact, modular = (count(each.cells.table, row0, row1, column0, column1) for each in (full, compact))
         if (row1 - row0) * (column1 - column0) < 2**16:
-            assert found == exact
+            assert modular == exact
         else:
-            assert found >= 1
+            assert modular >= 1
 
 
 def test_a_compact_index_never_misses_a_cell() -> None:
@@ -176,11 +176,11 @@ def test_a_compact_index_never_misses_a_cell() -> None:
     full, compact = CellIndex(mask, 0.1), CellIndex(mask, 0.1, compact=True)
     lower = rng.uniform(-1.0, 45.0, (4000, 2))
     boxes = Boxes(lower, lower + rng.uniform(0.0, 1.0, (4000, 1)) ** 3 * rng.uniform(0.0, 50.0, (4000, 2)))
-    exact, found = full.meet(boxes), compact.meet(boxes)
-    assert (found | ~exact).all()
-    assert (found & ~exact).any()  # where 2¹⁶ cells or more were asked for
+    exact, met = full.meet(boxes), compact.meet(boxes)
+    assert (met | ~exact).all()
+    assert (met & ~exact).any()  # where 2¹⁶ cells or more were asked for
     small = (boxes.width() < 20.0).all(axis=1)
-    assert (found[small] == exact[small]).all()
+    assert (met[small] == exact[small]).all()
     narrowed = [CellContractor(each).contract(boxes) for each in (full, compact)]
     kept = ~narrowed[0].empty
     assert (narrowed[1].lower[kept] <= narrowed[0].lower[kept]).all()
@@ -197,12 +197,12 @@ def test_endless_empty_and_far_boxes() -> None:
         np.array([[inf, inf], [-inf, -inf], [1.7e308, 9], [-1e300, 9], [inf, 0.75], [1.0, 1.0]]),
     )
     assert index.meet(boxes).tolist() == [True, False, False, False, True, False]
-    found = CellContractor(index).contract(boxes)
-    assert found.empty.tolist() == [False, True, True, True, False, True]
-    assert (found.lower[found.empty] == inf).all()
-    assert (found.upper[found.empty] == -inf).all()
-    assert found[[0, 4]].lower.tolist() == [[1.0, 0.5], [1.0, 0.75]]
-    assert found[[0, 4]].upper.tolist() == [[1.5, 1.0], [1.5, 0.75]]
+    narrowed = CellContractor(index).contract(boxes)
+    assert narrowed.empty.tolist() == [False, True, True, True, False, True]
+    assert (narrowed.lower[narrowed.empty] == inf).all()
+    assert (narrowed.upper[narrowed.empty] == -inf).all()
+    assert narrowed[[0, 4]].lower.tolist() == [[1.0, 0.5], [1.0, 0.75]]
+    assert narrowed[[0, 4]].upper.tolist() == [[1.5, 1.0], [1.5, 0.75]]
 
 
 def test_large_batches_are_the_same_on_any_number_of_threads() -> None:
@@ -215,8 +215,8 @@ def test_large_batches_are_the_same_on_any_number_of_threads() -> None:
     try:
         for number in (1, 2, 3):
             threads.set_threads(number)
-            found = CellContractor(index).contract(boxes)
-            results.append((index.meet(boxes), found.lower, found.upper))
+            narrowed = CellContractor(index).contract(boxes)
+            results.append((index.meet(boxes), narrowed.lower, narrowed.upper))
     finally:
         threads.set_threads(None)
     for result in results[1:]:
@@ -245,7 +245,7 @@ def test_no_occupied_point_of_a_large_box_is_lost() -> None:
 def test_a_grid_gives_its_mask() -> None:
     grid = OccupancyGrid(np.array([[0, 1, 2]], np.uint8), 0.5)
     index = CellIndex(grid.mask(OCCUPIED), grid.resolution)
-    assert index.table.tolist() == [[0, 0, 0, 0], [0, 0, 1, 1]]
+    assert index.cells.table.tolist() == [[0, 0, 0, 0], [0, 0, 1, 1]]
 
 
 def test_bad_input_is_refused() -> None:
@@ -276,8 +276,8 @@ def test_a_part_with_its_origin_answers_as_the_whole_grid_does() -> None:
         lower = random.uniform(-5.0, 45.0, (50, 2)) * resolution
         lower[::2] = np.round(lower[::2] / resolution) * resolution
         boxes = Boxes(lower, lower + random.uniform(0.0, 8.0, (50, 2)) * random.integers(0, 2, (50, 2)) * resolution)
-        found = CellIndex(part, resolution, origin=(int(row), int(column))).meet(boxes)
-        assert (found == CellIndex(alone, resolution).meet(boxes)).all()
+        met = CellIndex(part, resolution, origin=(int(row), int(column))).meet(boxes)
+        assert (met == CellIndex(alone, resolution).meet(boxes)).all()
 
 
 @pytest.mark.parametrize("resolution", [0.013, 0.042, 0.045, 0.052, 0.09, 0.05, 0.1])

@@ -40,15 +40,15 @@ def plain(**changes: Any) -> SimpleNamespace:
 
 
 def test_values_become_classes_by_the_thresholds() -> None:
-    found = grid_from_message(plain())
-    assert found.cells.tolist() == [[FREE, FREE, UNKNOWN], [UNKNOWN, OCCUPIED, OCCUPIED]]
-    found = grid_from_message(plain(), free_thresh=0.0, occupied_thresh=1.0)
-    assert found.cells.tolist() == [[FREE, UNKNOWN, UNKNOWN], [UNKNOWN, UNKNOWN, OCCUPIED]]
+    grid = grid_from_message(plain())
+    assert grid.cells.tolist() == [[FREE, FREE, UNKNOWN], [UNKNOWN, OCCUPIED, OCCUPIED]]
+    grid = grid_from_message(plain(), free_thresh=0.0, occupied_thresh=1.0)
+    assert grid.cells.tolist() == [[FREE, UNKNOWN, UNKNOWN], [UNKNOWN, UNKNOWN, OCCUPIED]]
 
 
 def test_values_that_are_no_percentage_are_unknown() -> None:
-    found = grid_from_message(plain(data=np.array([-1, -128, 101, 127, -100, 0], np.int8)))
-    assert found.cells.tolist() == [[UNKNOWN] * 3, [UNKNOWN, UNKNOWN, FREE]]
+    grid = grid_from_message(plain(data=np.array([-1, -128, 101, 127, -100, 0], np.int8)))
+    assert grid.cells.tolist() == [[UNKNOWN] * 3, [UNKNOWN, UNKNOWN, FREE]]
 
 
 def test_the_resolution_is_the_double_of_the_float32() -> None:
@@ -56,17 +56,17 @@ def test_the_resolution_is_the_double_of_the_float32() -> None:
 
 
 def test_the_origin_may_be_rotated() -> None:
-    found = grid_from_message(plain(turn=(0.0, 0.0, math.sin(0.4), math.cos(0.4)))).origin
-    assert (found.x, found.y) == (1.0, 2.0)
-    assert found.theta == pytest.approx(0.8, abs=1e-15)
+    origin = grid_from_message(plain(turn=(0.0, 0.0, math.sin(0.4), math.cos(0.4)))).origin
+    assert (origin.x, origin.y) == (1.0, 2.0)
+    assert origin.theta == pytest.approx(0.8, abs=1e-15)
     scaled = grid_from_message(plain(turn=(0.0, 0.0, -3 * math.sin(0.4), -3 * math.cos(0.4)))).origin
     assert scaled.theta == pytest.approx(0.8, abs=1e-15)
 
 
 def test_a_rotation_left_at_zero_is_warned_about() -> None:
     with pytest.warns(MapWarning, match="left at zero"):
-        found = grid_from_message(plain(turn=(0.0, 0.0, 0.0, 0.0)))
-    assert found.origin == Pose(1.0, 2.0, 0.0)
+        grid = grid_from_message(plain(turn=(0.0, 0.0, 0.0, 0.0)))
+    assert grid.origin == Pose(1.0, 2.0, 0.0)
 
 
 @pytest.mark.parametrize(
@@ -131,10 +131,10 @@ def same(one: OccupancyGrid, other: OccupancyGrid) -> bool:
 @pytest.mark.parametrize("kind", ["bag", "db3", "mcap"])
 def test_a_map_goes_through_a_bag(tmp_path: Path, kind: str) -> None:
     path = write_bag(tmp_path / ("map.bag" if kind == "bag" else "map"), kind, [("/some/map", GRID)])
-    found = read_map_topic(path)
-    assert same(found, GRID)
-    assert (found.origin.x, found.origin.y) == (-1.5, 2.25)
-    assert found.origin.theta == pytest.approx(0.75, abs=1e-15)
+    grid = read_map_topic(path)
+    assert same(grid, GRID)
+    assert (grid.origin.x, grid.origin.y) == (-1.5, 2.25)
+    assert grid.origin.theta == pytest.approx(0.75, abs=1e-15)
     if kind != "bag":
         assert same(read_map_topic(next(path.glob(f"*.{kind}"))), GRID)
 

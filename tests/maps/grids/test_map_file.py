@@ -142,9 +142,9 @@ def test_what_is_written_is_read_to_the_last_bit(tmp_path: Path, suffix: str) ->
     file = tmp_path / f"#a map: of {{some}} 'plän'.{suffix}"
     write_map(grid, file)
     for semantics in ("nav2", "ros1"):
-        found = read_map(file, semantics)
-        assert (found.cells == cells).all()
-        assert (found.resolution, found.origin) == (grid.resolution, grid.origin)
+        read = read_map(file, semantics)
+        assert (read.cells == cells).all()
+        assert (read.resolution, read.origin) == (grid.resolution, grid.origin)
     assert sorted(each.suffix for each in tmp_path.iterdir()) == [".pgm", f".{suffix}"]
 
 

@@ -28,10 +28,10 @@ def write(folder: Path, **changes: str | None) -> Path:
 
 
 def test_all_keys(tmp_path: Path) -> None:
-    found = read_metadata(write(tmp_path, mode="scale", comment="{an: [unknown, key]}"))
-    assert (found.image, found.resolution, found.negate, found.mode) == (tmp_path / "map.pgm", 0.05, False, "scale")
-    assert (found.origin.x, found.origin.y, found.origin.theta) == (-1.5, 2.0, 0.25)
-    assert (found.free_thresh, found.occupied_thresh) == (0.196, 0.65)
+    metadata = read_metadata(write(tmp_path, mode="scale", comment="{an: [unknown, key]}"))
+    assert (metadata.image, metadata.resolution, metadata.negate, metadata.mode) == (tmp_path / "map.pgm", 0.05, False, "scale")
+    assert (metadata.origin.x, metadata.origin.y, metadata.origin.theta) == (-1.5, 2.0, 0.25)
+    assert (metadata.free_thresh, metadata.occupied_thresh) == (0.196, 0.65)
 
 
 def test_mode_is_trinary_where_it_is_missing(tmp_path: Path) -> None:
@@ -189,9 +189,9 @@ def test_random_content_is_refused(tmp_path: Path, content: bytes) -> None:
     insert=st.binary(max_size=6) | st.text("0123456789.e-nai[]{}:# \n", max_size=6).map(str.encode),
 )
 def test_a_changed_file_gives_possible_values_or_an_error(tmp_path: Path, position: int, length: int, insert: bytes) -> None:
-    found = read_or_refuse(tmp_path, WHOLE[:position] + insert + WHOLE[position + length :])
-    if found is not None:
-        assert 0.0 < found.resolution < math.inf
-        assert 0.0 <= found.free_thresh < found.occupied_thresh <= 1.0
-        assert all(map(math.isfinite, (found.origin.x, found.origin.y, found.origin.theta)))
-        assert found.mode in ("trinary", "scale", "raw")
+    metadata = read_or_refuse(tmp_path, WHOLE[:position] + insert + WHOLE[position + length :])
+    if metadata is not None:
+        assert 0.0 < metadata.resolution < math.inf
+        assert 0.0 <= metadata.free_thresh < metadata.occupied_thresh <= 1.0
+        assert all(map(math.isfinite, (metadata.origin.x, metadata.origin.y, metadata.origin.theta)))
+        assert metadata.mode in ("trinary", "scale", "raw")

@@ -114,11 +114,11 @@ def test_boxes_go_to_the_map_frame_and_back() -> None:
 
 
 def test_description_can_be_written_as_json_and_adds_up() -> None:
-    found = json.loads(json.dumps(OccupancyGrid(CELLS, 0.5, Pose(1, 2, 0.5)).describe()))
-    assert found["cells"] == {"free": 3, "occupied": 2, "unknown": 1}
-    assert found["area_m2"] == {"free": 0.75, "occupied": 0.5, "unknown": 0.25}
-    assert found["origin"] == {"x": 1, "y": 2, "theta": 0.5}
-    assert (found["columns"], found["rows"], found["width_m"], found["height_m"], found["resolution_m"]) == (3, 2, 1.5, 1.0, 0.5)
+    content = json.loads(json.dumps(OccupancyGrid(CELLS, 0.5, Pose(1, 2, 0.5)).describe()))
+    assert content["cells"] == {"free": 3, "occupied": 2, "unknown": 1}
+    assert content["area_m2"] == {"free": 0.75, "occupied": 0.5, "unknown": 0.25}
+    assert content["origin"] == {"x": 1, "y": 2, "theta": 0.5}
+    assert (content["columns"], content["rows"], content["width_m"], content["height_m"], content["resolution_m"]) == (3, 2, 1.5, 1.0, 0.5)
 
 
 @pytest.mark.parametrize(("value", "text"), [(FREE, "no occupied cell"), (UNKNOWN, "no occupied cell"), (OCCUPIED, "no free cell")])

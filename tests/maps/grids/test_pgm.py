@@ -88,6 +88,6 @@ def test_random_bytes_are_an_image_or_an_error(data: bytes) -> None:
 
 def test_what_is_written_is_read() -> None:
     pixels = np.random.default_rng(2).integers(0, 256, (7, 5), dtype=np.uint8)
-    found, maximum = decode_pgm(encode_pgm(pixels))
+    decoded, maximum = decode_pgm(encode_pgm(pixels))
     assert maximum == 255
-    assert (found == pixels).all()
+    assert (decoded == pixels).all()

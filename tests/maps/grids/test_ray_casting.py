@@ -44,11 +44,11 @@ def distance_to_cells(mask: np.ndarray, resolution: float, x: float, y: float, a
 def test_against_all_cells(bits: int, sparse: int, resolution: float, u: float, v: float, angle: float) -> None:
     mask = np.array([(bits & sparse) >> i & 1 for i in range(35)], dtype=np.bool_).reshape(5, 7)
     x, y = u * resolution, v * resolution
-    found = float(cast_rays(mask, resolution, x, y, angle))
+    distances = float(cast_rays(mask, resolution, x, y, angle))
     margin = 1e-8 * resolution
     earliest = distance_to_cells(mask, resolution, x, y, angle, margin)
     latest = distance_to_cells(mask, resolution, x, y, angle, -margin)
-    assert earliest - margin <= found <= latest + margin
+    assert earliest - margin <= distances <= latest + margin
 
 
 @settings(max_examples=300)
@@ -61,17 +61,17 @@ def test_against_all_cells(bits: int, sparse: int, resolution: float, u: float, 
 )
 def test_rays_that_touch_corners_and_edges_hit(u: int, v: int, sparse: int, other: int, turn: int) -> None:
     mask = np.array([(sparse & other) >> i & 1 for i in range(35)], dtype=np.bool_).reshape(5, 7)
-    found = float(cast_rays(mask, 1.0, u, v, turn * math.pi / 4))
+    distances = float(cast_rays(mask, 1.0, u, v, turn * math.pi / 4))
     closed = distance_to_cells(mask, 1.0, u, v, turn * math.pi / 4, 1e-12)  # what a step of rounding could hide
-    assert found == pytest.approx(closed, abs=1e-9)
+    assert distances == pytest.approx(closed, abs=1e-9)
 
 
 def test_a_room_by_hand() -> None:
     mask = np.ones((10, 20), np.bool_)
     mask[1:9, 1:19] = False
     angles = np.array([0.0, math.pi / 2, math.pi, -math.pi / 2, math.atan2(3.0, 4.0)])
-    found = cast_rays(mask, 0.5, 5.0, 2.5, angles)
-    assert found == pytest.approx([4.5, 2.0, 4.5, 2.0, 2.0 * 5 / 3])
+    distances = cast_rays(mask, 0.5, 5.0, 2.5, angles)
+    assert distances == pytest.approx([4.5, 2.0, 4.5, 2.0, 2.0 * 5 / 3])
 
 
 def test_corner_edge_and_inside() -> None:
@@ -92,9 +92,9 @@ def test_corner_edge_and_inside() -> None:
 def test_range_ends_the_search() -> None:
     mask = np.zeros((3, 100), np.bool_)
     mask[:, 99] = True
-    found = [float(cast_rays(mask, 0.1, 0.05, 0.15, 0.001, max_range)) for max_range in (9.0, 9.84, 9.86, math.inf, 0.0, -1.0)]
-    assert found[0] == found[1] == found[4] == found[5] == math.inf
-    assert found[2] == found[3] == pytest.approx(9.85, abs=1e-4)
+    distances = [float(cast_rays(mask, 0.1, 0.05, 0.15, 0.001, max_range)) for max_range in (9.0, 9.84, 9.86, math.inf, 0.0, -1.0)]
+    assert distances[0] == distances[1] == distances[4] == distances[5] == math.inf
+    assert distances[2] == distances[3] == pytest.approx(9.85, abs=1e-4)
 
 
 def test_starts_far_outside_do_not_hang() -> None:

@@ -44,8 +44,8 @@ def test_the_corners_stay_inside(
 ) -> None:
     pose = Pose(x, y, yaw)
     box = Boxes.of([xs, ys, (start, start + width)])
-    found = (boxes_into_frame if inverse else boxes_from_frame)(box, pose)
-    (xl, yl, tl), (xu, yu, tu) = found.lower[0], found.upper[0]
+    image = (boxes_into_frame if inverse else boxes_from_frame)(box, pose)
+    (xl, yl, tl), (xu, yu, tu) = image.lower[0], image.upper[0]
     for corner_x in xs:
         for corner_y in ys:
             u, v = moved(pose, corner_x, corner_y, inverse)
@@ -56,39 +56,39 @@ def test_the_corners_stay_inside(
 
 
 def test_a_rotated_box_is_as_small_as_can_be() -> None:
-    found = boxes_from_frame(Boxes.of([(0, 1), (0, 1), (0, 0.1)]), Pose(0, 0, math.pi / 4))
+    image = boxes_from_frame(Boxes.of([(0, 1), (0, 1), (0, 0.1)]), Pose(0, 0, math.pi / 4))
     root = math.sqrt(0.5)
-    assert np.allclose(found.lower, [[-root, 0, math.pi / 4]], atol=1e-14)
-    assert np.allclose(found.upper, [[root, 2 * root, math.pi / 4 + 0.1]], atol=1e-14)
+    assert np.allclose(image.lower, [[-root, 0, math.pi / 4]], atol=1e-14)
+    assert np.allclose(image.upper, [[root, 2 * root, math.pi / 4 + 0.1]], atol=1e-14)
 
 
 def test_without_rotation_the_angle_is_untouched_and_sums_are_tight() -> None:
     box = Boxes.of([(0.1, 0.2), (0.3, 0.4), (3.0, 3.5)])
-    found = boxes_from_frame(box, Pose(0.7, 0.0, 0.0))
-    assert (found.lower[0, 2], found.upper[0, 2]) == (3.0, 3.5)
-    assert (found.lower[0, 1], found.upper[0, 1]) == (0.3, 0.4)
-    assert math.nextafter(found.lower[0, 0], 1) >= 0.1 + 0.7 >= found.lower[0, 0]
+    image = boxes_from_frame(box, Pose(0.7, 0.0, 0.0))
+    assert (image.lower[0, 2], image.upper[0, 2]) == (3.0, 3.5)
+    assert (image.lower[0, 1], image.upper[0, 1]) == (0.3, 0.4)
+    assert math.nextafter(image.lower[0, 0], 1) >= 0.1 + 0.7 >= image.lower[0, 0]
 
 
 def test_the_full_circle_stays_the_full_circle() -> None:
-    found = boxes_from_frame(Boxes.of([(0, 1), (0, 1), (-PI_UPPER, PI_UPPER)]), Pose(1, 2, 0.7))
-    assert (found.lower[0, 2], found.upper[0, 2]) == (-PI_UPPER, PI_UPPER)
+    image = boxes_from_frame(Boxes.of([(0, 1), (0, 1), (-PI_UPPER, PI_UPPER)]), Pose(1, 2, 0.7))
+    assert (image.lower[0, 2], image.upper[0, 2]) == (-PI_UPPER, PI_UPPER)
 
 
 def test_an_interval_over_the_cut_is_written_in_the_agreed_form() -> None:
-    found = boxes_from_frame(Boxes.of([(0, 1), (0, 1), (3.0, 3.1)]), Pose(0, 0, 1.0))
-    assert -PI_UPPER <= found.lower[0, 2] <= PI_UPPER
-    assert found.lower[0, 2] == pytest.approx(4.0 - 2 * math.pi)
+    image = boxes_from_frame(Boxes.of([(0, 1), (0, 1), (3.0, 3.1)]), Pose(0, 0, 1.0))
+    assert -PI_UPPER <= image.lower[0, 2] <= PI_UPPER
+    assert image.lower[0, 2] == pytest.approx(4.0 - 2 * math.pi)
 
 
 def test_empty_and_endless_rows() -> None:
     box = Boxes(np.array([[np.inf] * 3, [-np.inf, 0, 0]]), np.array([[-np.inf] * 3, [np.inf, 1, 0.5]]))
     for yaw in (0.0, 0.5):
-        found = boxes_from_frame(box, Pose(1, 2, yaw))
-        assert found.empty.tolist() == [True, False]
-        assert (found.lower[0] == np.inf).all()
-        assert (found.upper[0] == -np.inf).all()
-        assert (found.lower[1, 0], found.upper[1, 0]) == (-np.inf, np.inf)
+        image = boxes_from_frame(box, Pose(1, 2, yaw))
+        assert image.empty.tolist() == [True, False]
+        assert (image.lower[0] == np.inf).all()
+        assert (image.upper[0] == -np.inf).all()
+        assert (image.lower[1, 0], image.upper[1, 0]) == (-np.inf, np.inf)
 
 
 def test_boxes_of_another_dimension_are_refused() -> None:

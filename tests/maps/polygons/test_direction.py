@@ -14,11 +14,11 @@ def test_quarter_turns_are_exact(turn: Fraction) -> None:
 
 @pytest.mark.parametrize("turn", [Fraction(1, 3), Fraction(1, 7), Fraction(-3, 11), Fraction(99, 100), Fraction(1, 10**9), Fraction(5, 8)])
 def test_a_direction_is_right_to_a_hundred_bits(turn: Fraction) -> None:
-    for part, found in zip((turn, turn - Fraction(1, 4)), direction(turn), strict=True):
+    for part, number in zip((turn, turn - Fraction(1, 4)), direction(turn), strict=True):
         for lower, upper in cosine_bounds(part):
             if upper - lower < Fraction(1, 2**110):
                 break
-        assert lower - Fraction(1, 2**100) <= Fraction(found, ONE) <= upper + Fraction(1, 2**100)
+        assert lower - Fraction(1, 2**100) <= Fraction(number, ONE) <= upper + Fraction(1, 2**100)
 
 
 def test_a_direction_has_length_one() -> None:

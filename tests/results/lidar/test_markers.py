@@ -11,10 +11,10 @@ CORNERS = st.lists(st.tuples(st.floats(0.0, 9.0), st.floats(0.0, 9.0), st.floats
 @given(corners=CORNERS, limit=st.integers(1, 50))
 def test_few_rectangles_cover_every_box(corners: list[tuple[float, float, float]], limit: int) -> None:
     boxes = Boxes.of(*([(x, x + size), (y, y + size), (0.0, 1.0)] for x, y, size in corners))
-    found = rectangles(boxes, limit)
-    assert len(found) <= limit
+    cover = rectangles(boxes, limit)
+    assert len(cover) <= limit
     for lower, upper in zip(boxes.lower, boxes.upper, strict=True):
-        covered = (found[:, :2] <= lower[:2] + 1e-9).all(axis=1) & (upper[:2] - 1e-9 <= found[:, 2:]).all(axis=1)
+        covered = (cover[:, :2] <= lower[:2] + 1e-9).all(axis=1) & (upper[:2] - 1e-9 <= cover[:, 2:]).all(axis=1)
         assert covered.any()
 
 

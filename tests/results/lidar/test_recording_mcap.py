@@ -29,13 +29,13 @@ def written(path: Path, grid: OccupancyGrid, run: list[Any]) -> Path:
 
 def messages(path: Path) -> list[tuple[str, int, Any]]:
     """Every message, which must also serialize to the very bytes that it was read from."""
-    found = []
+    read = []
     with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_JAZZY)) as reader:
         for connection, stamp, data in reader.messages():
             message = reader.deserialize(data, connection.msgtype)
             assert bytes(reader.typestore.serialize_cdr(message, connection.msgtype)) == bytes(data)
-            found.append((connection.topic, stamp, message))
-    return found
+            read.append((connection.topic, stamp, message))
+    return read
 
 
 def pose_of(transform: Any) -> Pose:
@@ -53,14 +53,14 @@ def sample_file(sample_run: list[Any], tmp_path_factory: pytest.TempPathFactory)
 
 
 def test_every_message_reads_back_at_the_stamps_of_the_scans(sample_file: Path, sample_run: list[Any]) -> None:
-    found = messages(sample_file)
+    read = messages(sample_file)
     stamps = [step.stamp_ns for step, _ in sample_run]
     localized = sum(estimate.pose is not None for _, estimate in sample_run)
-    counts = Counter(topic for topic, _, _ in found)
+    counts = Counter(topic for topic, _, _ in read)
     assert counts["/scan"] == counts["/tf"] == counts["/enclosures"] == len(sample_run)
     assert (counts["/map"], counts["/tf_static"], counts["/pose"]) == (1, 1, localized)
-    assert {stamp for _, stamp, _ in found} == set(stamps)
-    assert [stamp_of(message.header) for topic, _, message in found if topic == "/scan"] == stamps
+    assert {stamp for _, stamp, _ in read} == set(stamps)
+    assert [stamp_of(message.header) for topic, _, message in read if topic == "/scan"] == stamps
 
 
 def test_map_and_mounting_reach_late_subscribers(sample_file: Path) -> None:
@@ -77,15 +77,15 @@ def test_transforms_compose_to_the_pose(sample_file: Path, sample_run: list[Any]
         assert (edges[("odom", "base_link")].x, edges[("odom", "base_link")].y) == (step.odometry.x, step.odometry.y)
         assert (("map", "odom") in edges) is (estimate.pose is not None)
         if estimate.pose is not None:
-            found = edges[("map", "odom")] @ edges[("odom", "base_link")]
-            assert math.dist((found.x, found.y), (estimate.pose.x, estimate.pose.y)) < 1e-9
-            assert abs(math.remainder(found.theta - estimate.pose.theta, 2.0 * math.pi)) < 1e-9
+            pose = edges[("map", "odom")] @ edges[("odom", "base_link")]
+            assert math.dist((pose.x, pose.y), (estimate.pose.x, estimate.pose.y)) < 1e-9
+            assert abs(math.remainder(pose.theta - estimate.pose.theta, 2.0 * math.pi)) < 1e-9
 
 
 def test_the_last_path_holds_all_poses(sample_file: Path, sample_run: list[Any]) -> None:
     *_, path = (message for topic, _, message in messages(sample_file) if topic == "/path")
-    found = [(pose.pose.position.x, pose.pose.position.y) for pose in path.poses]
-    assert found == [(estimate.pose.x, estimate.pose.y) for _, estimate in sample_run if estimate.pose is not None]
+    positions = [(pose.pose.position.x, pose.pose.position.y) for pose in path.poses]
+    assert positions == [(estimate.pose.x, estimate.pose.y) for _, estimate in sample_run if estimate.pose is not None]
 
 
 def test_the_file_is_a_recording_of_the_same_scans_with_its_map(sample_file: Path) -> None:

@@ -25,10 +25,10 @@ def summary(estimate_of: Callable[..., Any], grid: OccupancyGrid) -> Summary:
     ]
     recording = InMemoryRecording("made up", [Reading(step.index, step.stamp_ns, Odometry(0.0, 0.0), step.scan) for step, _ in run])
     recording.skipped["no odometry"] = 3
-    found = Summary(recording, grid, LocalizerConfig(), {"every": 2})
+    content = Summary(recording, grid, LocalizerConfig(), {"every": 2})
     for step, estimate in run:
-        found.add(step, estimate)
-    return found
+        content.add(step, estimate)
+    return content
 
 
 def test_counts(summary: Summary) -> None:

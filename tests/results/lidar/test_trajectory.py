@@ -11,12 +11,12 @@ def test_it_holds_exactly_the_poses_that_are_there(sample_run: list[Any], tmp_pa
         for step, estimate in sample_run:
             file.add(step, estimate)
     expected = [(step.stamp_ns, estimate.pose) for step, estimate in sample_run if estimate.pose is not None]
-    found = read_tum(path)
-    assert found.stamps_ns.tolist() == [stamp for stamp, _ in expected]
+    trajectory = read_tum(path)
+    assert trajectory.stamps_ns.tolist() == [stamp for stamp, _ in expected]
     assert 0 < len(expected) < len(sample_run)
     for row, (_, pose) in enumerate(expected):
-        assert (found[row].x, found[row].y) == (pose.x, pose.y)
-        assert abs(found[row].theta - pose.theta) < 1e-15
+        assert (trajectory[row].x, trajectory[row].y) == (pose.x, pose.y)
+        assert abs(trajectory[row].theta - pose.theta) < 1e-15
 
 
 def test_a_run_that_was_never_localized_leaves_an_empty_file(sample_run: list[Any], tmp_path: Path) -> None:

@@ -23,12 +23,12 @@ def test_the_bounds_lie_within_what_is_said(x: float, y: float, theta: float, ha
     a, b, c = halves
     hypothesis = Hypothesis((x - a, x + a), (y - b, y + b), (theta, theta + 2.0 * c), 1, 1.0)
     text = pose_text(hypothesis.centre, hypothesis).replace("−", "-")
-    found = [Fraction(number) for number in re.findall(r"-?\d+\.\d+", text)]
-    for value, error, (lower, upper) in ((*found[:2], hypothesis.x), (*found[2:4], hypothesis.y)):
+    numbers = [Fraction(number) for number in re.findall(r"-?\d+\.\d+", text)]
+    for value, error, (lower, upper) in ((*numbers[:2], hypothesis.x), (*numbers[2:4], hypothesis.y)):
         assert value - error <= Fraction(lower)
         assert Fraction(upper) <= value + error
     low, high = (math.degrees(bound) for bound in hypothesis.theta)
-    value, error = map(float, found[4:])
+    value, error = map(float, numbers[4:])
     turn = 360.0 * round((0.5 * (low + high) - value) / 360.0)
     assert value - error <= low - turn + 1e-9
     assert high - turn <= value + error + 1e-9
