@@ -70,6 +70,7 @@ def in_wheel(name: str) -> str:
     return f"ial/{name}" if name.startswith(tuple(f"{folder}/" for folder in FOLDERS)) else name
 
 
+@pytest.mark.slow
 def test_the_wheel_holds_every_module_and_nothing_else(wheel: Path) -> None:
     modules = {in_wheel(name) for name in kept_files() if name.endswith(".py")}
     modules = {name for name in modules if name.startswith("ial/")}
@@ -78,6 +79,7 @@ def test_the_wheel_holds_every_module_and_nothing_else(wheel: Path) -> None:
     assert {name for name in held if not name.startswith("ial/")} == set()
 
 
+@pytest.mark.slow
 def test_the_wheel_holds_the_sample(wheel: Path) -> None:
     sample = {in_wheel(name) for name in kept_files() if name.startswith("datasets/sample/")}
     held = set(zipfile.ZipFile(wheel).namelist())
@@ -85,6 +87,7 @@ def test_the_wheel_holds_the_sample(wheel: Path) -> None:
     assert {"ial/datasets/sample/sample.mcap", "ial/datasets/sample/map.yaml", "ial/datasets/sample/LICENSE-MRPT", "ial/py.typed"} <= held
 
 
+@pytest.mark.slow
 def test_the_wheel_names_the_licences_and_the_command(wheel: Path) -> None:
     with zipfile.ZipFile(wheel) as archive:
         facts = {name.partition(".dist-info/")[2]: name for name in archive.namelist() if ".dist-info/" in name}
@@ -94,6 +97,7 @@ def test_the_wheel_names_the_licences_and_the_command(wheel: Path) -> None:
         assert archive.read(facts["top_level.txt"]).decode().split() == ["ial"]
 
 
+@pytest.mark.slow
 def test_the_unpacked_wheel_gives_ial_and_no_bare_name(wheel: Path, tmp_path: Path) -> None:
     with zipfile.ZipFile(wheel) as archive:
         archive.extractall(tmp_path / "site")

@@ -37,6 +37,7 @@ def test_the_readme_has_snippets() -> None:
     assert len(SNIPPETS) == 2
 
 
+@pytest.mark.slow
 @needs_mypy
 def test_the_snippets_are_well_typed_and_mypy_knows_the_types(tmp_path: Path) -> None:
     wrong = ["estimate.hypotheses[0].nonsense", "pave(ring, 3, precision=0.02)"]

@@ -8,8 +8,6 @@ from typing import Any
 
 import pytest
 
-from ial.cli.shell.outcome import exit_status
-
 HEAVY = ("cv2", "matplotlib", "numba", "numpy", "rosbags", "scipy", "yaml")
 
 
@@ -80,13 +78,6 @@ def test_an_interruption_is_status_130_and_leaves_nothing(ial: Callable[..., Any
     assert (result.exit_code, result.stdout) == (130, "")
     assert result.stderr.splitlines()[-1] == "interrupted: nothing was written"
     assert list(tmp_path.iterdir()) == []
-
-
-def test_too_little_memory_is_an_error_with_status_2(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as caught, exit_status():
-        raise MemoryError
-    assert caught.value.code == 2
-    assert "the memory does not hold" in capsys.readouterr().err
 
 
 @pytest.mark.slow

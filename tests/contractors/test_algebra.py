@@ -63,6 +63,7 @@ def branch(parts: st.SearchStrategy[Set]) -> st.SearchStrategy[Set]:
 trees = st.recursive(leaves, branch, max_leaves=8)
 
 
+@pytest.mark.slow
 @given(trees)
 @settings(max_examples=80)
 def test_no_combination_removes_a_point_of_the_wrong_side(tree: Set) -> None:
@@ -74,6 +75,7 @@ def test_no_combination_removes_a_point_of_the_wrong_side(tree: Set) -> None:
     assert is_well_formed(outer, BOXES)
 
 
+@pytest.mark.slow
 @given(trees)
 @settings(max_examples=80)
 def test_every_combination_decides_every_point_that_is_not_on_the_boundary(tree: Set) -> None:

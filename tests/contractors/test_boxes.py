@@ -148,6 +148,7 @@ def expected(rows: list[list[Interval]]) -> list[tuple[Interval, ...]]:
     return [tuple(Interval.empty() if any(side.is_empty for side in row) else each for each in row) for row in rows]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("apply", OPERATORS)
 @given(rows=ROWS, others=ROWS, number=BOUND)
 def test_operators_work_on_every_side(apply: Callable[[Any, Any], Any], rows: Any, others: Any, number: float) -> None:
@@ -207,6 +208,7 @@ def test_an_expression_takes_boxes_as_its_rows() -> None:
     assert isinstance(Boxes.column([0.0, 1.0], [1.0, 2.0]) + x, type(x))
 
 
+@pytest.mark.slow
 @given(st.lists(st.tuples(BOUND, BOUND, BOUND, BOUND), min_size=1, max_size=5), st.floats(0, 1), st.floats(0, 1))
 def test_the_halves_of_a_bisection_cover_the_box(rows: list[tuple[float, float, float, float]], s: float, t: float) -> None:
     bounds = np.sort(np.array(rows).reshape(-1, 2, 2), axis=2)

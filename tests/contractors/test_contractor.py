@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 
 from ial.contractors import Boxes, Contractor, Intersection, Union
-from ial.contractors.combinators.trivial_sets import EmptySet, WholeSpace
 from ial.contractors.contractor import common_dimension, complement, require_dimension
 from tests.contractors.shapes import Inside, Outside, Points, random_boxes, same, separator, sides
 
@@ -46,14 +45,6 @@ def test_not_is_the_complement_where_one_is_known() -> None:
             _ = ~unknown
     with pytest.raises(TypeError, match="outside of Inside"):
         complement(Inside(*LEFT))
-
-
-def test_the_trivial_sets_are_each_others_complement() -> None:
-    boxes = random_boxes(50, 3, seed=2)
-    assert EmptySet(3).contract(boxes).empty.all()
-    assert same(WholeSpace(3).contract(boxes), boxes)
-    assert same((~EmptySet(3)).contract(boxes), boxes)
-    assert (~WholeSpace(3)).contract(boxes).empty.all()
 
 
 def test_what_cannot_be_combined_is_refused_with_advice() -> None:

@@ -26,6 +26,7 @@ def test_every_public_name_is_tried_or_known_to_compute_no_bound() -> None:
     assert not tried & guarded.EXACT - {"Constraint", "ConstraintFamily", "Operation", "Paving"}
 
 
+@pytest.mark.slow
 def test_what_is_tried_works_while_the_mode_is_right() -> None:
     for name, work in guarded.works().items():
         try:

@@ -51,6 +51,7 @@ def sources() -> KernelSources:
     return KernelSources(PACKAGE)
 
 
+@pytest.mark.slow
 def test_whatever_imports_a_compiler_is_covered(sources: KernelSources) -> None:
     compiling = {module for module in modules() if compiles(module)}
     assert {
@@ -162,6 +163,7 @@ def codes(code: CodeType) -> Iterator[CodeType]:
             yield from codes(constant)
 
 
+@pytest.mark.slow
 def test_what_numba_really_calls_is_in_the_hash_of_the_caller(sources: KernelSources) -> None:
     """Not read off the text: from the functions themselves as they are once everything is imported."""
     for module in sources.files:

@@ -123,6 +123,7 @@ def give_away(path: Path, user: int) -> None:
     os.chown(path, user, user)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("spoil", "place", "how"),
     [
@@ -171,6 +172,7 @@ def test_no_kernel_gives_up_ieee_semantics_or_runs_numbas_own_threads(file: Path
             assert "nextafter" not in called, f"{file}: {node.name}: use a bit step, twenty times faster"
 
 
+@pytest.mark.slow
 def test_the_sources_hold_kernels_at_all() -> None:
     kernels = [node.name for file in FILES for node in ast.walk(tree(file)) if isinstance(node, ast.FunctionDef) and is_kernel(node)]
     assert {"add", "sin", "contract_polar"} <= set(kernels)

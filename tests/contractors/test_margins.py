@@ -78,6 +78,7 @@ def _of_the_platform(x, y, values):  # type: ignore[no-untyped-def]
     values[0], values[1], values[2], values[3], values[4] = math.asin(x), math.acos(x), math.atan(y), math.atan2(x, y), abs(y) ** x
 
 
+@pytest.mark.slow
 def test_the_platform_is_trusted_with_no_more_than_it_keeps() -> None:
     """`trigonometric` and `powers` take these to be right within one unit in the last place: here by what kernels call."""
     random, values = np.random.default_rng(3), np.empty(5)

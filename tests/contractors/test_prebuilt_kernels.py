@@ -27,6 +27,7 @@ def copy(tmp_path: Path) -> PackageCopy:
     return PackageCopy(tmp_path)
 
 
+@pytest.mark.slow
 def test_they_are_used_without_compiling_and_kernels_of_this_processor_win(copy: PackageCopy) -> None:
     place = build(copy, "x86-64")
     prebuilt = copy.kept
@@ -44,6 +45,7 @@ def test_they_are_used_without_compiling_and_kernels_of_this_processor_win(copy:
     assert mark.exists()  # so the bomb works
 
 
+@pytest.mark.slow
 def test_what_others_could_have_written_and_what_is_damaged_is_compiled(copy: PackageCopy) -> None:
     place = build(copy, "x86-64")
     mark = copy.folder / "run"
@@ -62,6 +64,7 @@ def test_what_others_could_have_written_and_what_is_damaged_is_compiled(copy: Pa
     assert copy.use() == (RESULT, [])
 
 
+@pytest.mark.slow
 def test_a_change_of_the_source_is_noticed(copy: PackageCopy) -> None:
     build(copy, "x86-64")
     copy.constant.write_text("STEP = 2.00\n")

@@ -81,6 +81,7 @@ def test_a_jump_that_cannot_be_is_refused(jumps: list[tuple[int, int]], message:
         kidnap(recording(), [Kidnapping(*jump) for jump in jumps])
 
 
+@pytest.mark.slow
 def test_the_localizer_is_lost_at_once_and_finds_the_new_place_in_the_same_step() -> None:
     plain = {step.index: estimate for step, estimate in localize(sample_recording(), Localizer(sample_grid()))}
     moved, _ = kidnap(sample_recording(), [Kidnapping(10, 30)])

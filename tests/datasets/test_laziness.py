@@ -14,6 +14,7 @@ def test_the_package_loads_nothing_heavy() -> None:
     assert done.stdout.strip() == "[]"
 
 
+@pytest.mark.slow
 def test_a_carmen_log_does_not_need_rosbags() -> None:
     program = "import ial.datasets as d, sys; d.open_recording, d.steps; import ial.datasets.carmen; print('rosbags' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)

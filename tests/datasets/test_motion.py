@@ -1,6 +1,5 @@
 """Tests of interval motions against exact and high-precision arithmetic."""
 
-import itertools
 import math
 from fractions import Fraction
 
@@ -61,6 +60,7 @@ def test_between_encloses_the_exact_difference(previous: Pose, now: Pose) -> Non
     assert (motion.upper - motion.lower < 1e-12).all()
 
 
+@pytest.mark.slow
 def test_between_encloses_the_exact_motion_of_recorded_quaternions() -> None:
     """Of any length; their headings are 2·atan2(z, w), to the last bit and beyond."""
     random = np.random.default_rng(8)
@@ -74,25 +74,6 @@ def test_between_encloses_the_exact_motion_of_recorded_quaternions() -> None:
         motion = Motion.between(before, after)
         assert _holds(motion, _step(exactly_before, exactly_after))
         assert (motion.upper - motion.lower < 1e-12).all()
-
-
-def test_a_path_is_the_composition_of_its_pieces() -> None:
-    random = np.random.default_rng(4)
-    parts = [(0.01, 0.1, 0.2, 0.3), (0.02, 0.2, 0.1, 0.05), (0.0, 0.0, 1.0, 0.0)]
-    once = np.array([0.5, 0.1, 0.4])
-    apart = MotionBounds(*(ErrorBound(*part) for part in parts))
-    bounds = MotionBounds(*(ErrorBound(*part, scan) for part, scan in zip(parts, once[[0, 2, 1]], strict=True)))
-    for count in (2, 3, 9):
-        stamps = np.cumsum(random.integers(1, 10**9, count))
-        path = OdometryPath(stamps, np.concatenate([random.normal(size=(count, 4)), random.uniform(0.0, 0.1, (count, 2))], axis=1))
-        expected = Motion.identity()
-        for (start, first), (stop, second) in itertools.pairwise(path):
-            piece = apart.enclose(Motion.between(first, second), 1e-9 * float(stop - start))
-            expected = piece if start == stamps[0] else expected.compose(piece)
-        motion = bounds.along(path)
-        assert motion.lower[:2] == pytest.approx(expected.lower[:2] - once[:2], abs=1e-9)
-        assert motion.upper[:2] == pytest.approx(expected.upper[:2] + once[:2], abs=1e-9)
-        assert motion.upper[2] - motion.lower[2] == pytest.approx(min(2.0 * math.pi, expected.upper[2] - expected.lower[2] + 0.8), abs=1e-9)
 
 
 def test_odometry_of_which_nothing_is_known_gives_every_motion() -> None:
@@ -153,6 +134,7 @@ def test_unknown_absorbs_everything_and_is_the_full_circle() -> None:
         assert np.array_equal(motion.upper, unknown.upper)
 
 
+@pytest.mark.slow
 @given(poses, st.floats(0.0, 0.3), st.floats(0.0, 0.3), st.floats(0.0, 0.3), shares)
 def test_enclose_holds_what_the_formula_allows(
     delta: Pose, per_message: float, per_metre: float, per_radian: float, share: tuple[float, ...]

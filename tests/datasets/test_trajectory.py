@@ -21,6 +21,7 @@ def _file(folder: Path, text: str) -> Path:
     return path
 
 
+@pytest.mark.slow
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     st.lists(

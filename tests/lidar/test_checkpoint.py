@@ -19,6 +19,7 @@ def recording() -> Recording:
     return sample_recording()
 
 
+@pytest.mark.slow
 def test_a_run_goes_on_as_if_it_had_not_been_stopped(recording: Recording, tmp_path: Path) -> None:
     whole = list(localize(recording, Localizer(sample_grid()), start=1, every=3))
     first = Localizer(sample_grid())

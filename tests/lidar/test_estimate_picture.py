@@ -24,6 +24,7 @@ def test_each_hypothesis_is_its_hull_and_its_headings() -> None:
     assert ax.get_title() == "two"
 
 
+@pytest.mark.slow
 def test_what_is_left_out_is_said() -> None:
     ax = Figure().add_subplot()
     draw_hypotheses(ax, [ONE] * 2001, None, "many")

@@ -123,6 +123,7 @@ def test_a_prediction_beside_the_truth_leaves_hardly_anything() -> None:
     assert [estimate.vanishing for _, estimate, _ in answers] == [everywhere for _, _, everywhere in answers]
 
 
+@pytest.mark.slow
 def test_answers_seldom_vanish_while_all_bounds_hold() -> None:
     answers = list(drives(0.0))
     assert all(held for held, _, _ in answers)

@@ -25,6 +25,7 @@ def test_the_import_alone_loads_no_library() -> None:
     assert done.stdout.strip() == "[]"
 
 
+@pytest.mark.slow
 def test_a_grid_loads_no_image_or_bag_library() -> None:
     code = "import sys, ial.maps; ial.maps.OccupancyGrid; print([n for n in ('cv2', 'rosbags') if n in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -228,6 +228,7 @@ def test_a_lidar_in_one_or_several_maps_holds_the_truth(seed: int) -> None:
         assert any(each.contains(at) for each in lapsed.states)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_a_bouncing_robot_with_real_geometry_holds_the_truth(seed: int) -> None:
     environment = random_environment(seed)

@@ -111,6 +111,7 @@ def test_a_beam_is_bad_once() -> None:
     assert bad_beams(beams, poses, obstacles).tolist() == [3, 2]
 
 
+@pytest.mark.slow
 def test_many_poses_at_once_are_each_by_itself() -> None:
     case = Case.random(11)
     beams, obstacles = UsedBeams.of(case.scan, case.config), Obstacles(case.grid)

@@ -1,17 +1,11 @@
-import math
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from ial.bouncing.automata.automaton import Automaton
 from ial.bouncing.automata.determinization import determinize
-from ial.bouncing.automata.nondeterministic import NondeterministicAutomaton
-from ial.bouncing.automata.verification import compare_sets
-from ial.bouncing.cells.graph import LabelledGraph, disjoint_union
 from ial.bouncing.cells.groups import periodic_groups
 from ial.errors import FilterError
-from tests.bouncing.worlds import cell_map, drawn, observations, random_mask, twin_information_states, worlds
+from tests.bouncing.worlds import cell_map, drawn, observations, twin_information_states, worlds
 
 WORLDS = list(worlds(24))
 
@@ -19,25 +13,6 @@ WORLDS = list(worlds(24))
 @pytest.fixture(scope="module")
 def automata() -> list[Automaton]:
     return [determinize(made.graph, verify=True) for made in WORLDS]
-
-
-def cycles_of_length(lengths: list[int]) -> LabelledGraph:
-    """Cycles along which labels repeat 01."""
-    base = np.concatenate([np.arange(length) for length in lengths])
-    starts = np.repeat(np.cumsum([0, *lengths[:-1]]), lengths)
-    return LabelledGraph.of(starts + (base + 1) % np.repeat(lengths, lengths), base % 2)
-
-
-def lcm_graph() -> LabelledGraph:
-    """Five cycles of 2·3 … 2·13 vertices, and two lead-in vertices to each that give every cycle one known place."""
-    lengths = [2 * prime for prime in (3, 5, 7, 11, 13)]
-    graph = cycles_of_length(lengths)
-    successors, labels = graph.successors.tolist(), graph.labels.tolist()
-    for start in np.cumsum([0, *lengths[:-1]]).tolist():
-        # 11 is seen nowhere on the cycles: whoever emits it is known to enter its cycle at the first vertex.
-        successors += [len(successors) + 1, start]
-        labels += [True, True]
-    return LabelledGraph.of(successors, labels)
 
 
 @pytest.mark.parametrize("index", range(len(WORLDS)))
@@ -92,78 +67,7 @@ def test_the_lemma_of_knowledge_cycles(index: int, automata: list[Automaton]) ->
     assert depth_first == set()
 
 
-def test_the_lcm_counterexample_to_proposition_1_hits_the_cap_cleanly() -> None:
-    graph = lcm_graph()
-    with pytest.raises(FilterError, match="more than 7744 states; use larger cells"):
-        determinize(graph, most_states=len(graph) ** 2)
-    automaton = determinize(graph, verify=True)
-    assert len(automaton) > len(graph) ** 2
-    assert automaton.cycles.lengths.max() == math.lcm(6, 10, 14, 22, 26) == 30_030
-
-
-def test_a_rotated_map_has_the_same_automaton() -> None:
-    for seed, angle, headings in ((1, 90, 4), (2, 45, 8), (3, 90, 12)):
-        free = random_mask(seed, 9, 6)
-        one, other = (determinize(cell_map(mask, angle, headings).graph) for mask in (free, np.rot90(free)))
-        # States are numbered breadth first, so automata that are alike up to their names are equal.
-        assert np.array_equal(one.successors, other.successors)
-        assert np.array_equal(one.uncertainty, other.uncertainty)
-        mirrored = determinize(cell_map(free[:, ::-1], angle, headings).graph)
-        assert not np.array_equal(one.successors, mirrored.successors), "a mirrored one turns the other way"
-
-
-def test_merged_headings_keep_states_and_uncertainties() -> None:
-    free = random_mask(5)
-    whole, merged = (determinize(cell_map(free, 90, 24, merge=merge).graph) for merge in (False, True))
-    assert len(merged.graph) < len(whole.graph)
-    assert np.array_equal(whole.successors, merged.successors)
-    assert np.array_equal(whole.uncertainty, merged.uncertainty)
-    assert np.array_equal(whole.cycles.uncertainty, merged.cycles.uncertainty)
-    assert merged.cycles.uncertainty.min() == 3
-
-
-def test_environments_of_a_union_are_those_whose_cells_are_held() -> None:
-    graphs = [cell_map(random_mask(seed)).graph for seed in range(3)]
-    union = determinize(disjoint_union(graphs), verify=True)
-    _, sets = twin_information_states(union.graph)
-    for state, held in enumerate(sets):
-        assert {i for i in range(3) if int(union.environments[state]) >> i & 1} == set(union.graph.part_of(sorted(held)).tolist())
-
-
-def test_the_nondeterministic_automaton_reaches_what_the_deterministic_one_stands_for() -> None:
-    graph = cell_map(random_mask(4)).graph
-    nondeterministic, (arcs, sets) = NondeterministicAutomaton.of(graph), twin_information_states(graph)
-    assert len(nondeterministic) == len(graph) + 1
-    for word in ("", "0", "1", "0010001", "1101", "0001000100010001"):
-        state: int | None = 0
-        for letter in word:
-            state = None if state is None else arcs[state][int(letter)]
-        expected = sets[state] if state is not None else frozenset()
-        assert set(nondeterministic.reach(word)) == {v + 1 for v in expected}
-    transitions = list(nondeterministic.transitions())
-    assert len(transitions) == 2 * len(graph)
-    assert transitions[0] == (0, "", 1)
-    letters = [(start, read) for start, read, _ in transitions if read]
-    assert letters == [(v + 1, "1" if label else "0") for v, label in enumerate(graph.labels)]
-    assert nondeterministic.final.sum() == (periodic_groups(graph).step == 0).sum()
-
-
-def test_a_wrong_arc_does_not_pass_verification() -> None:
-    automaton = determinize(cell_map(random_mask(6)).graph)
-    wrong = automaton.successors.copy()
-    state = int(np.flatnonzero((wrong >= 0).all(axis=1))[3])
-    wrong[state] = wrong[state, ::-1]
-    with pytest.raises(FilterError, match=r"stands for another set|another size"):
-        compare_sets(replace(automaton, successors=wrong))
-
-
 def test_only_the_sets_of_cycles_are_kept() -> None:
     automaton = determinize(cell_map(drawn("... .#. ...")).graph)
     with pytest.raises(FilterError, match="state 0 is on no knowledge cycle"):
         automaton.cells(0)
-
-
-def test_a_robot_that_only_turns_is_in_a_cycle_at_once() -> None:
-    automaton = determinize(cell_map(drawn(".")).graph)
-    assert (len(automaton), automaton.depth, automaton.successors.tolist()) == (1, 0, [[-1, 0]])
-    assert automaton.cycles.uncertainty.tolist() == [4]

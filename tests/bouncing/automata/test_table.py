@@ -5,9 +5,7 @@ import pytest
 
 from ial.bouncing.automata.determinization import determinize
 from ial.bouncing.automata.table import FilterTable
-from ial.bouncing.cells.graph import disjoint_union
-from ial.bouncing.filters.bank import FilterBank
-from ial.errors import ConfigError, StreamError
+from ial.errors import StreamError
 from tests.bouncing.worlds import cell_map, drawn, observations, random_mask, worlds
 
 ROOMS = {
@@ -44,22 +42,6 @@ def test_streams_of_another_environment_are_rejected(home: str, other: str) -> N
     assert all(rejected)
 
 
-def test_the_filter_of_the_union_and_the_filters_side_by_side_agree() -> None:
-    union = FilterTable.of(determinize(disjoint_union([made.graph for made in ROOMS.values()]), verify=True))
-    names = list(ROOMS)
-    chooser = np.random.default_rng(5)
-    streams = [chooser.integers(0, 2, 30).tolist() for _ in range(100)]
-    streams += [observations(made.graph, start, 60)[0] for made in ROOMS.values() for start in range(0, len(made.graph), 9)]
-    for stream in streams:
-        bank, state = FilterBank(TABLES), 0
-        for reading in stream:
-            bank.update(reading)
-            state = union.step(state, reading)
-            assert [names[number] for number in union.possible(state)] == bank.possible
-            assert union.uncertainty[state] == bank.uncertainty
-            assert (state == union.trap) == (bank.possible == [])
-
-
 def test_a_closed_world_does_not_contradict_itself() -> None:
     with pytest.raises(StreamError, match="observation 7 of the stream fits no place"):
         TABLES["hall"].run_closed([0] * 9)
@@ -75,11 +57,6 @@ def test_the_trap_is_left_only_by_restarting() -> None:
     own = observations(ROOMS["hall"].graph, 5, 60)[0]
     behind = states.index(again.trap) + 1
     assert again.run([0] * behind + own)[behind:] == table.run(own)
-
-
-def test_a_bank_needs_a_filter() -> None:
-    with pytest.raises(ConfigError, match="no environment"):
-        FilterBank({})
 
 
 def test_a_random_room_is_told_from_itself_with_one_cell_more() -> None:

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from ial.bouncing.cells.cell_map import CellMap
-from ial.bouncing.cells.corner import passed_cells
 from ial.bouncing.cells.headings import Headings
 from ial.contractors import threads
 from ial.errors import ConfigError, MapError
@@ -32,19 +31,6 @@ def test_a_robot_at_a_wall_stays_and_turns() -> None:
     assert made.graph.successors[made.vertex(0, 0, 0)] == at
     corner = made.vertex(1, 1, 0)  # faces one wall, then the other: a double bounce
     assert made.graph.labels[[corner, made.graph.successors[corner]]].tolist() == [True, True]
-
-
-def test_the_corner_policy() -> None:
-    gap = drawn("#. .#")
-    slips, held = (cell_map(gap, 45, 8, corner=corner) for corner in ("endpoint", "segment"))
-    assert not slips.graph.labels[slips.vertex(0, 0, 1)]
-    assert held.graph.labels[held.vertex(0, 0, 1)]
-    assert set(passed_cells(1, 1, "segment")) == {(1, 0), (0, 1), (1, 1)}
-    assert passed_cells(-2, 1, "segment") == [(-1, 0), (-1, 1), (-2, 1)]
-    assert passed_cells(3, 0, "segment") == [(1, 0), (2, 0), (3, 0)]
-    assert passed_cells(3, 2, "endpoint") == [(3, 2)]
-    with pytest.raises(ConfigError, match="corner policy 'slip'"):
-        passed_cells(1, 1, "slip")  # type: ignore[arg-type]
 
 
 def test_merged_headings_stand_for_the_same_configurations() -> None:

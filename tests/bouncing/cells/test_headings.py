@@ -1,6 +1,5 @@
 import math
 from fractions import Fraction
-from itertools import islice
 
 import mpmath
 import pytest
@@ -10,33 +9,12 @@ from hypothesis import strategies as st
 from ial.bouncing.cells.heading_classes import HeadingClasses
 from ial.bouncing.cells.headings import Headings, rounded_cosine
 from ial.errors import ConfigError
-from ial.maps.polygons.exact_cosine import cosine_bounds, rational_cosine
+from ial.maps.polygons.exact_cosine import rational_cosine
 
 
 def cosine(turn: Fraction) -> Fraction:
     with mpmath.workdps(120):
         return Fraction(*mpmath.libmp.to_rational(mpmath.cos(2 * mpmath.pi * turn.numerator / mpmath.mpf(turn.denominator))._mpf_))
-
-
-@pytest.mark.slow
-@given(st.fractions(-2, 2, max_denominator=720))
-def test_bounds_hold_the_cosine_and_become_narrower(turn: Fraction) -> None:
-    exact = cosine(turn)
-    widths = []
-    for lower, upper in islice(cosine_bounds(turn), 3):
-        assert lower - Fraction(1, 10**110) <= exact <= upper + Fraction(1, 10**110)
-        widths.append(upper - lower)
-    assert widths[0] < Fraction(1, 2**48)
-    assert widths[1] < Fraction(1, 2**58)
-    assert widths[2] < Fraction(1, 2**120)
-
-
-def test_the_rational_cosines_are_those_of_nivens_theorem() -> None:
-    cosines = {degrees: rational_cosine(Fraction(degrees, 360)) for degrees in range(-360, 720)}
-    for degrees, value in cosines.items():
-        assert (value is not None) == (degrees % 60 == 0 or degrees % 90 == 0)
-        if value is not None:
-            assert math.isclose(value, math.cos(math.radians(degrees)), abs_tol=1e-12)
 
 
 @given(st.fractions(0, 1, max_denominator=360), st.fractions(Fraction(1, 2), 50, max_denominator=8))
@@ -77,17 +55,6 @@ def test_steps_of_one_cell_know_eight_directions() -> None:
     assert len(classes) == 8
     assert sorted(classes.sizes.tolist()) == [31, 31, 31, 31, 59, 59, 59, 59]
     assert len({tuple(each) for each in Headings(360, 90, Fraction(4)).offsets.tolist()}) == 32
-
-
-def test_classes_respect_bumps() -> None:
-    headings = Headings(24, 5, Fraction(2))
-    classes = HeadingClasses.merged(headings)
-    for heading in range(24):
-        mine = classes.of[heading]
-        assert classes.offsets[mine].tolist() == headings.offsets[heading].tolist()
-        assert classes.turned[mine] == classes.of[(heading + 5) % 24]
-        assert heading in classes.members(int(mine))
-    assert classes.sizes.sum() == 24
 
 
 def test_an_angle_needs_as_many_headings() -> None:

@@ -2,20 +2,16 @@ import random
 from fractions import Fraction
 from itertools import islice
 
-import numpy as np
 import pytest
 
-from ial.bouncing.automata.set_automaton import determinize_sets
 from ial.bouncing.cells.headings import Headings
 from ial.bouncing.cells.model import BouncingModel
 from ial.bouncing.cells.noisy_map import NoisyMap
 from ial.bouncing.cells.noisy_model import NoisyModel
-from ial.bouncing.cells.set_graph import SetGraph, rows_of
 from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.rays.real_robot import RealPose, RealRobot
-from ial.errors import FilterError
-from ial.membership import Rejection, SetMembershipFilter
-from tests.bouncing.rays.test_real_robot import PILLAR, ROOM
+from ial.membership import SetMembershipFilter
+from tests.bouncing.rays.test_real_robot import PILLAR
 from tests.bouncing.truth import random_environment
 
 NONE = ExecutionBounds()
@@ -86,38 +82,3 @@ def test_larger_bounds_give_larger_sets(larger: ExecutionBounds) -> None:
             assert one <= other
             grown += len(other) > len(one)
     assert grown > 0
-
-
-def test_the_automaton_is_that_of_the_filter_and_its_size_is_limited() -> None:
-    made = NoisyMap(ROOM, Fraction(1, 2), Headings.of_angle(Fraction(90), 12, Fraction(3)))
-    automaton, model = determinize_sets(made.graph), NoisyModel(made.graph)
-    chooser = random.Random(2)
-    for _ in range(20):
-        state, states = 0, model.universe()
-        for _ in range(20):
-            label = chooser.randrange(2)
-            state, states = int(automaton.successors[state, label]), model.step(states, None, label)
-            assert (state < 0) == model.empty(states)
-            if state < 0:
-                break
-            assert automaton.sizes[state] == len(states)
-    with pytest.raises(FilterError, match="more than 3 states"):
-        determinize_sets(made.graph, 3)
-
-
-def test_an_impossible_stream_is_a_rejection() -> None:
-    model = NoisyModel(noisy(step=Fraction(3), cell=Fraction(1, 2)).graph)
-    robot = SetMembershipFilter(model, "restart")
-    answers = [robot.update(None, 0) for _ in range(40)]
-    first = next(each for each in answers if each is not None)
-    assert isinstance(first, Rejection)
-    assert first.step >= 6, "the diagonal is 10 m, a step 1.5 m"
-    assert len(model.predict(model.universe(), None)) > 0
-
-
-def test_rows_are_sorted_and_hold_each_arc_once() -> None:
-    starts, ends = rows_of(np.array([2, 0, 2, 2]), np.array([1, 2, 1, 0]), 3)
-    assert starts.tolist() == [0, 1, 1, 3]
-    assert ends.tolist() == [2, 0, 1]
-    with pytest.raises(FilterError, match="leads to vertex 2"):
-        SetGraph((starts[:3], starts[:3]), (ends, ends), 2)

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from ial.bouncing.automata.table import FilterTable
-from ial.bouncing.exports.c_array import CArray
 from ial.bouncing.exports.c_source import c_header
 from ial.bouncing.exports.c_tables import CTables
 from ial.bouncing.exports.exported_filter import ExportedFilter
@@ -87,6 +86,7 @@ def expected(table: FilterTable, streams: list[list[int]]) -> list[list[int]]:
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("compiler", COMPILERS)
 @pytest.mark.parametrize("restart", [False, True])
 def test_c_steps_as_python_does(small: BounceFilter, compiler: str, restart: bool, tmp_path: Path) -> None:
@@ -103,6 +103,7 @@ def test_c_steps_as_python_does(small: BounceFilter, compiler: str, restart: boo
     assert bool((random[:, :-1] > random[:, 1:]).any()) == restart
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("keep", ["colours", "localized"])
 def test_minimized_filters_have_the_same_colours(corner: BounceFilter, keep: str, tmp_path: Path) -> None:
     exported = ExportedFilter.of(corner, keep)  # type: ignore[arg-type]
@@ -182,38 +183,6 @@ def test_names_of_environments_do_no_harm(tmp_path: Path) -> None:
 def test_what_is_no_identifier_is_refused(corner: BounceFilter, prefix: str) -> None:
     with pytest.raises(ConfigError, match="is no identifier; give a letter"):
         c_header(ExportedFilter.of(corner), prefix)
-
-
-@pytest.mark.parametrize(("most", "width"), [(0, 8), (255, 8), (256, 16), (65535, 16), (65536, 32), (2**32 - 1, 32), (2**32, 64)])
-def test_the_narrowest_type_is_chosen(most: int, width: int) -> None:
-    array = CArray("t", np.array([0, most]), "x")
-    assert array.width == width
-    assert array.size == width // 4
-    assert f"static const X uint{width}_t t[2]" in array.declaration("X")
-
-
-def test_bytes_are_those_of_the_compiler(small: BounceFilter, tmp_path: Path) -> None:
-    exported = ExportedFilter.of(small)
-    tables = CTables.of(exported, "room")
-    header = c_header(exported, "room")
-    names = re.findall(r"static const ROOM_FLASH \w+ (\w+)", header.partition("inline")[0])
-    program = '#include <stdio.h>\n#include "f.h"\nint main(void) { printf("%lu %lu %lu", (unsigned long)('
-    program += " + ".join(f"sizeof({name})" for name in names)
-    program += "), (unsigned long)(sizeof(room_next) + sizeof(room_colours)), (unsigned long)sizeof(room_state)); return 0; }\n"
-    done = subprocess.run([compiled("gcc", header, program, tmp_path)], capture_output=True, text=True, check=True)
-    assert done.stdout == f"{tables.flash_bytes} {tables.stepping_bytes} {tables.ram_bytes}"
-    assert len(names) == len(tables.stepping) + len(tables.telling)
-
-
-def test_the_budget(corner: BounceFilter) -> None:
-    tables = CTables.of(ExportedFilter.of(corner), "room")
-    assert tables.excess(tables.flash_bytes) is None
-    said = tables.excess(tables.flash_bytes - 1)
-    assert said is not None
-    assert f"take {tables.flash_bytes:,} bytes of flash, and the budget is {tables.flash_bytes - 1:,}" in said
-    assert "--minimize colours" in said
-    with pytest.raises(ConfigError, match="is -1 bytes"):
-        tables.excess(-1)
 
 
 def test_tables_can_be_kept_in_flash(corner: BounceFilter, tmp_path: Path) -> None:

@@ -4,15 +4,11 @@ from itertools import product
 import numpy as np
 import pytest
 
-from ial.bouncing.automata.determinization import determinize
-from ial.bouncing.cells.cell_map import CellMap
 from ial.bouncing.cells.graph import LabelledGraph
 from ial.bouncing.planning.angle_search import AngleSequence, search_angles
-from ial.bouncing.planning.information_sets import InformationSets
-from ial.bouncing.planning.phase import Phase
 from ial.errors import ConfigError
 from ial.maps.polygons.raster import Raster
-from tests.bouncing.worlds import HALL, STORE, MaskArray, cell_map, drawn, random_mask, worlds
+from tests.bouncing.worlds import HALL, STORE, MaskArray, cell_map, drawn, random_mask
 
 Held = frozenset[int]
 SMALL = [random_mask(seed, 4, 5) for seed in range(4)]
@@ -80,16 +76,6 @@ def test_the_best_comes_first_and_is_the_best_of_all_by_brute_force() -> None:
     assert best.rank == min(ranks)
 
 
-def test_one_angle_says_what_its_automaton_says() -> None:
-    for map_ in worlds(20):
-        phase = Phase.of(map_.graph)
-        automaton, known = determinize(map_.graph), phase.after(InformationSets.everything(map_.graph))
-        sizes = known.uncertainty(map_.graph)
-        assert (sizes.min(), sizes.max()) == (automaton.cycles.uncertainty.min(), automaton.cycles.uncertainty.max())
-        assert known.elapsed.max() == automaton.depth
-        assert known.weights.sum() == map_.graph.configurations
-
-
 def test_merged_headings_change_nothing() -> None:
     raster, angle = Raster(HALL), [Fraction(90)]
     (merged,) = search_angles([raster], 24, angles_deg=angle)
@@ -139,15 +125,3 @@ def test_the_order() -> None:
 def test_bad_searches_are_refused(options: dict[str, object], message: str) -> None:
     with pytest.raises(ConfigError, match=message):
         search_angles([Raster(HALL)], **options)  # type: ignore[arg-type]
-
-
-def test_a_phase_begins_in_any_set() -> None:
-    graph = CellMap(Raster(HALL), cell_map(HALL).headings).graph
-    held = np.arange(0, len(graph), 7, dtype=np.int32)
-    known = InformationSets(np.array([0, len(held)]), held, np.ones(len(held), dtype=np.int64), np.array([5]))
-    ends = Phase.of(graph).after(known)
-    for number in range(len(ends)):
-        members = frozenset(ends.members[ends.starts[number] : ends.starts[number + 1]].tolist())
-        assert comes_back(graph, members)
-    assert ends.weights.sum() == len(held)
-    assert ends.elapsed.min() >= 5

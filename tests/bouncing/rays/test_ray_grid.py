@@ -49,6 +49,7 @@ def holds(states: RaySet, wall: int, steps: int, arriving: bool, part: float, he
     return False
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(24))
 def test_no_point_of_a_set_is_lost_where_it_is_made_coarser(seed: int) -> None:
     random = np.random.default_rng(seed)

@@ -21,6 +21,7 @@ from tests.bouncing.truth import extent, follow, holds_leg, holds_place, random_
 L_ROOM = Environment((Polygon(ring((0, 0), (9, 0), (9, 4), (5, 4), (5, 7), (0, 7))),))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("first", range(100_000, 100_240, 24))
 def test_a_robot_with_real_geometry_is_never_lost(first: int) -> None:
     assert sum(follow(seed, 3).losses for seed in range(first, first + 24)) == 0
@@ -39,6 +40,7 @@ def localized(angle: Fraction, bounds: ExecutionBounds, told: ExecutionBounds, s
     return held, rejected
 
 
+@pytest.mark.slow
 def test_a_robot_that_breaks_its_bounds_is_rejected_and_one_that_keeps_them_is_not() -> None:
     none, some = ExecutionBounds(), ExecutionBounds(Fraction(2), Fraction(1, 50), 1)
     assert localized(Fraction(100), none, none, 1) == (14, 0)

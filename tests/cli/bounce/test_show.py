@@ -21,6 +21,7 @@ def built(ial: Cli, hall: Path) -> Path:
     return Path("hall.npz")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", ["cycles", "basins", "automaton"])
 def test_a_filter_with_its_environment_gives_the_picture_of_the_environment(ial: Cli, built: Path, hall: Path, what: str) -> None:
     result = ial("bounce", "show", built, hall, "--what", what, "--out", "one.png")
@@ -31,6 +32,7 @@ def test_a_filter_with_its_environment_gives_the_picture_of_the_environment(ial:
     assert Path("one.png").read_bytes() == Path("other.png").read_bytes()
 
 
+@pytest.mark.slow
 def test_a_filter_alone(ial: Cli, built: Path, refused: Callable[..., str]) -> None:
     assert ial("bounce", "show", built, "--out", "cycles.png").exit_code == 0
     assert ial("bounce", "show", built, "--what", "automaton", "--out", "automaton.png").exit_code == 0

@@ -111,6 +111,7 @@ def test_killed_at_any_touch_of_a_file_it_goes_on(
     assert touches == 1 + 2 * 3 + 1  # the state is looked for, twice replaced in three steps, and the file of the answers is made
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("scans", "share"), [(1, 0.0), (1, 0.01), (1, 1.0), (3, 0.0), (3, 0.5), (3, 0.99)])
 def test_killed_in_the_middle_of_a_line_it_writes_the_rest(
     feed: Callable[..., Any], expected: list[bytes], scans: int, share: float
@@ -178,6 +179,7 @@ def test_a_file_that_looks_like_the_first_line_is_not_taken_for_it(
     assert OUT.read_bytes() == b"".join(expected)
 
 
+@pytest.mark.slow
 def test_what_belongs_to_one_file_is_not_written_to_another(feed: Callable[..., Any], refused: Refused, tmp_path: Path) -> None:
     options = ("stream", "fed.jsonl", *OPTIONS[:2])
     assert feed(1).exit_code == 0
@@ -191,6 +193,7 @@ def test_what_belongs_to_one_file_is_not_written_to_another(feed: Callable[..., 
     assert "written twice" in refused(*options, "--out", ".new.ial-part", "--state", "new")
 
 
+@pytest.mark.slow
 def test_a_state_behind_a_link_stays_there(feed: Callable[..., Any], expected: list[bytes]) -> None:
     STATE.symlink_to("far")
     for scans in (2, 4):
@@ -199,6 +202,7 @@ def test_a_state_behind_a_link_stays_there(feed: Callable[..., Any], expected: l
     assert OUT.read_bytes() == b"".join(expected)
 
 
+@pytest.mark.slow
 def test_nothing_is_written_through_a_link(feed: Callable[..., Any], expected: list[bytes]) -> None:
     Path("mine").write_bytes(b"mine")
     PART.symlink_to("mine")

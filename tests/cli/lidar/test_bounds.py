@@ -23,6 +23,7 @@ def test_bounds_of_the_sample_are_measured_and_suggested(ial: Callable[..., Any]
     assert ial("localize", "--config", "found/config.yaml", "--to", 2, "--out", "run").exit_code in (0, 3)
 
 
+@pytest.mark.slow
 def test_against_a_reference(ial: Callable[..., Any]) -> None:
     ial("simulate", "--map", sample_map_path(), "--out", "run.mcap", "--seed", 1, "--scans", 6)
     result = ial("bounds", "run.mcap", "--map", sample_map_path(), "--truth", "run.tum", "--out", "found", "--json")
@@ -36,6 +37,7 @@ def test_what_is_refused(refused: Callable[..., str], sample: Path) -> None:
     assert "do not meet those of the scans" in refused("bounds", sample, "--map", sample_map_path(), "--truth", "far.tum", "--out", "b")
 
 
+@pytest.mark.slow
 def test_motion_is_measured_from_each_scan_to_the_next_and_beams_where_wanted(ial: Callable[..., Any]) -> None:
     ial("simulate", "--map", sample_map_path(), "--out", "run.mcap", "--seed", 1, "--scans", 9)
     given = ("bounds", "run.mcap", "--map", sample_map_path(), "--every", 4, "--json")

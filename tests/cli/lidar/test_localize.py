@@ -32,6 +32,7 @@ def test_the_sample_ends_localized_where_it_should(ial: Callable[..., Any], tmp_
             assert math.dist((x, y), (15.89, -10.0)) <= 0.5
 
 
+@pytest.mark.slow
 def test_json_is_the_summary_and_nothing_else(ial: Callable[..., Any], tmp_path: Path) -> None:
     result = ial("localize", "--out", "run", "--every", 3, "--json")
     record = json.loads(result.stdout)
@@ -61,6 +62,7 @@ def test_without_out_a_stamped_folder_and_a_link_to_the_latest(ial: Callable[...
     assert (latest / "summary.json").exists()
 
 
+@pytest.mark.slow
 def test_from_every_and_to_choose_raw_scans(ial: Callable[..., Any], tmp_path: Path) -> None:
     ial("localize", "--out", "run", "--from", 1, "--every", 4, "--to", 10)
     assert [each.index for each in read_enclosures(tmp_path / "run" / "enclosures.jsonl")] == [1, 5, 9]
@@ -114,6 +116,7 @@ def test_its_own_trajectory_as_truth(ial: Callable[..., Any], tmp_path: Path) ->
     assert measures["truth_frame"] == "base"
 
 
+@pytest.mark.slow
 def test_a_truth_of_another_time_is_pointed_out(ial: Callable[..., Any], tmp_path: Path) -> None:
     (tmp_path / "truth.tum").write_text("5.0 1 2 0 0 0 0 1\n")
     result = ial("localize", "--out", "run", "--to", 1, "--truth", "truth.tum")
@@ -151,6 +154,7 @@ def test_a_scan_without_a_beam_is_counted_and_the_prediction_carried_on(
     assert [event["index"] for event in events if event["event"] == "uninformative"] == [1]
 
 
+@pytest.mark.slow
 def test_as_many_outliers_as_beams_say_nothing(ial: Callable[..., Any], bag: Any, room: Path) -> None:
     result = ial("localize", bag.write(), "--map", room, "--out", "run", "--outliers", 3)
     assert (result.exit_code, "uninformative: 3 scans" in result.stdout) == (3, True)

@@ -14,6 +14,7 @@ def _own_threads(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(threads, "_threads", None)  # the command sets their number for the whole process
 
 
+@pytest.mark.slow
 def test_the_embedded_recording_is_answered_scan_by_scan(ial: Callable[..., Any]) -> None:
     result = ial("replay", "--json", "--set", "precision.position_m=0.2")
     assert result.exit_code == 0

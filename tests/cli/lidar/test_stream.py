@@ -71,6 +71,7 @@ def test_one_line_for_each_scan_with_the_enclosures_of_localize(ial: Callable[..
     assert [json.loads(line) for line in expected.splitlines()] == whole
 
 
+@pytest.mark.slow
 def test_a_recording_in_place_of_standard_input(expected: bytes) -> None:
     assert stream([], sample_recording_path()).stdout == expected
 
@@ -86,6 +87,7 @@ def test_a_line_is_out_before_the_next_scan_is_in(lines: list[bytes], process: S
         assert running.stdout.readline() == expected.splitlines(keepends=True)[number]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
 def test_a_signal_ends_it_cleanly_while_it_waits(number: int, lines: list[bytes], process: Starter, expected: bytes) -> None:
     running = process()
@@ -141,6 +143,7 @@ def test_a_deadline_marks_the_answers_that_it_made_coarser(lines: list[bytes]) -
     assert answers[0]["limited"] == "time"
 
 
+@pytest.mark.slow
 def test_neither_plotting_nor_bags_nor_the_checker_of_configurations_is_imported(lines: list[bytes], ial: Callable[..., Any]) -> None:
     Path("config.yaml").write_text(ial("localize", "--outliers", "0.2", "--dump-config").stdout)
     script = (
@@ -157,6 +160,7 @@ def test_neither_plotting_nor_bags_nor_the_checker_of_configurations_is_imported
     assert imported & {"matplotlib", "pydantic", "rosbags", "shapely"} == set()
 
 
+@pytest.mark.slow
 def test_what_is_refused(lines: list[bytes], refused: Callable[..., str]) -> None:
     assert "give --map" in refused("stream")
     assert MAP in refused("stream")
@@ -170,6 +174,7 @@ def test_what_is_refused(lines: list[bytes], refused: Callable[..., str]) -> Non
     assert "cannot be written" in refused("stream", "--map", MAP, "--out", "nowhere/out.jsonl")
 
 
+@pytest.mark.slow
 def test_a_reader_that_goes_away_ends_it_with_a_message(lines: list[bytes], process: Starter) -> None:
     running = process()
     assert running.stdin is not None
@@ -208,6 +213,7 @@ def test_a_deadline_that_is_none_is_refused_by_its_name(lines: list[bytes], dead
     assert f"--deadline {deadline}: give a number of seconds above 0" in result.stderr.decode()
 
 
+@pytest.mark.slow
 def test_a_state_without_a_folder_and_lines_into_a_folder_are_refused_before_any_work(lines: list[bytes], tmp_path: Path) -> None:
     for options, message in ((("--state", tmp_path / "no" / "state"), "there is no folder"), (("--out", tmp_path), "is a folder")):
         result = stream(lines[:2], *options)
@@ -216,6 +222,7 @@ def test_a_state_without_a_folder_and_lines_into_a_folder_are_refused_before_any
         assert result.stdout == b""
 
 
+@pytest.mark.slow
 def test_its_own_input_is_not_written_to(lines: list[bytes]) -> None:
     path = Path("fed.jsonl")
     path.write_bytes(b"".join(lines))

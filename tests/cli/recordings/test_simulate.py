@@ -8,6 +8,7 @@ import pytest
 Cli = Callable[..., Any]
 
 
+@pytest.mark.slow
 def test_a_simulated_run_is_localized_with_the_truth_inside(ial: Cli, room: Path) -> None:
     result = ial("simulate", "--map", room, "--out", "run.mcap", "--scans", 20, "--beams", 61, "--seed", 3, "--outliers", 3)
     assert (result.exit_code, result.stderr) == (0, "")

@@ -174,6 +174,7 @@ def test_the_results_of_a_run_are_replaced_together_and_that_is_said(
     assert "an input of the command" in refused(command, "--to", 3, "--config", "run/config.yaml", "--out", run, "--overwrite")
 
 
+@pytest.mark.slow
 def test_a_folder_of_another_command_or_program_is_not_taken_for_a_result(ial: Cli, refused: Refused) -> None:
     assert ial("bounds", "--to", 3, "--out", "found").exit_code == 0
     assert "found: config.yaml, picture.png there are not" in refused("localize", "--to", 1, "--out", "found")

@@ -2,6 +2,7 @@ from typing import Any
 
 import mpmath as mp
 import numpy as np
+import pytest
 
 from ial.contractors.boxes import Boxes
 from ial.contractors.expressions.derivative import conditions, gradient, met
@@ -24,6 +25,7 @@ def difference(formula: Any, point: Any, axis: int) -> Any:
     return (left + right) / 2 if abs(left - right) <= mp.mpf(10) ** -12 * (1 + abs(left)) else None
 
 
+@pytest.mark.slow
 def test_gradients_of_random_formulas_enclose_slopes() -> None:
     rng = np.random.default_rng(1)
     p = variables("p[2]")

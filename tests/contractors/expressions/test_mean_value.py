@@ -14,6 +14,7 @@ from tests.contractors.formulas import SMOOTH, boxes_around, is_known, lost, ran
 x, y = variables("x y")
 
 
+@pytest.mark.slow
 def test_no_solution_of_a_random_constraint_is_lost() -> None:
     rng = np.random.default_rng(1)
     checked = narrower = 0

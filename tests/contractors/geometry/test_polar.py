@@ -71,6 +71,7 @@ def test_a_point_that_satisfies_the_relation_is_never_lost(points: FloatArray, s
     assert ((narrowed.lower >= boxes.lower) & (narrowed.upper <= boxes.upper)).all()
 
 
+@pytest.mark.slow
 @given(
     st.floats(0.0, 1e9),
     st.floats(-1e5, 1e5),
@@ -124,6 +125,7 @@ def hull_of_solutions(lower: list[float], upper: list[float]) -> tuple[FloatArra
     return (points.min(axis=0), points.max(axis=0)) if len(points) else None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(2))
 def test_no_narrower_box_would_do(seed: int) -> None:
     rng = np.random.default_rng(seed)

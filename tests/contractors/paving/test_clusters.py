@@ -84,6 +84,7 @@ def shortest_arc(boxes: Boxes) -> float:
     return best
 
 
+@pytest.mark.slow
 def test_components_and_hulls_equal_those_of_all_pairs() -> None:
     several = 0
     for seed in range(120):

@@ -78,6 +78,7 @@ def test_an_unbounded_box_is_refused_only_along_the_drawn_axes(ax: Axes) -> None
     assert len(draw(Boxes.none(3), boxes, (0, 1), ax).collections) == 1
 
 
+@pytest.mark.slow
 def test_matplotlib_is_loaded_only_to_draw() -> None:
     code = "import sys, ial.contractors.paving.paver, ial.contractors.paving.drawing; sys.exit('matplotlib' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

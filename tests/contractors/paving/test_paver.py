@@ -130,6 +130,7 @@ def test_corners_are_all_four() -> None:
     assert sorted(map(tuple, corners(Boxes.of([(0, 1), (2, 3)])).tolist())) == [(0, 2), (0, 3), (1, 2), (1, 3)]
 
 
+@pytest.mark.slow
 def test_every_solution_is_covered_and_every_box_is_small_and_not_excluded() -> None:
     solutions = 0
     for seed in SEEDS:

@@ -6,11 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ial.contractors.algebra import relaxed
 from ial.contractors.boxes import Boxes
-from ial.contractors.combinators.cylinder import where
-from ial.contractors.expressions.function import Function
-from ial.contractors.expressions.function_family import FunctionFamily
 from ial.contractors.expressions.functions import cos, floor, sin, sqrt
 from ial.contractors.expressions.variables import variables
 from ial.contractors.geometry.polar import Polar
@@ -18,7 +14,6 @@ from ial.contractors.intervals.interval import Interval
 from ial.contractors.paving.paver import Progress
 from ial.contractors.separator import Separator
 from ial.contractors.solving.problem import Problem
-from ial.contractors.solving.propagation import Propagation, axes_of
 
 INF = math.inf
 
@@ -73,61 +68,6 @@ def test_what_does_not_fit_is_refused() -> None:
         Problem((x, y), constraints=[x == y]).propagate(max_rounds=0)
 
 
-def test_propagation_reaches_through_chains_of_constraints_and_half_bounded_domains() -> None:
-    x = variables("x[30]")
-    chain = [x[i + 1] == x[i] + 1 for i in range(29)]
-    domains = Problem(x, {x[0]: (0, INF), x[29]: (-INF, 30)}, chain[::-1]).propagate()
-    assert all(domains[f"x[{i}]"] == Interval(i, i + 1) for i in range(30))
-
-
-def test_slow_and_endless_propagation_ends() -> None:
-    x, y = variables("x y")
-    slow = Problem((x, y), {x: (-1, 1), y: (-1, 1)}, [x == y, y == 0.9 * x])
-    assert slow.propagate()["x"].width < 0.02
-    assert slow.propagate(max_rounds=3)["x"].width > 1.0
-    assert slow.propagate(ratio=0.0)["x"].width == pytest.approx(0.0, abs=1e-40)
-    endless = Problem((x, y), {x: (0, INF)}, [x == y, y == x + 1])
-    assert endless.propagate()["x"].upper == INF
-    assert Problem((x, y), {x: (0, 100)}, [x == y, y == x + 1]).propagate()["y"].is_empty
-
-
-def test_only_what_is_affected_is_contracted_again() -> None:
-    calls = []
-
-    class Spy:
-        dimension = 3
-
-        def __init__(self, name: str, inner: object, axes: tuple[int, ...]) -> None:
-            self.name, self.inner, self.axes = name, inner, axes
-
-        def contract(self, boxes: Boxes) -> Boxes:
-            calls.append((self.name, len(boxes)))
-            return self.inner.contract(boxes)
-
-    x, y, z = variables("x y z")
-    members = [Spy("xy", x == y, (0, 1)), Spy("yz", y == z, (1, 2)), Spy("z", z <= 1.0, (2,))]
-    boxes = Boxes.of([(0, 2), (0, 2), (0, 2)], [(0, 1), (0, 1), (0, 1)], [(0, 1), (3, 4), (0, 1)])
-    narrowed = Propagation(*members).contract(boxes)
-    assert narrowed.upper[:2].max() == 1.0
-    assert narrowed.empty.tolist() == [False, False, True]
-    # z narrows the first box: yz, and then xy, and each once more since a spy may gain from a second time.
-    assert calls[:3] == [("xy", 3), ("yz", 2), ("z", 2)]
-    assert set(calls[3:]) <= {("xy", 1), ("yz", 1), ("z", 1)}
-    assert [name for name, _ in calls[3:]] == ["yz", "z", "xy", "yz", "xy"]
-
-
-def test_the_axes_of_constraints_are_known() -> None:
-    x, y, z = variables("x y z")
-    assert axes_of(x == y) == {0, 1}
-    assert axes_of((x == 1) | (z == 2)) == {0, 2}
-    assert axes_of(relaxed([x == 1, x == 2], 1)) == {0}
-    assert axes_of(where(variables("u") == 1, axes=(2,), dimension=3)) == {2}
-    assert axes_of(Function(y).preimage(variables("u") == 1)) == {1}
-    assert axes_of(Propagation(y == z)) == {0, 1, 2}
-    with pytest.raises(ValueError, match="dimensions"):
-        Propagation(x == 1, variables("u") == 1)
-
-
 @pytest.mark.slow
 @given(st.integers(0, 10**6))
 def test_no_solution_is_lost_and_rows_do_not_depend_on_each_other(seed: int) -> None:
@@ -179,64 +119,6 @@ def test_the_mean_value_form_saves_bisections() -> None:
     assert Problem((x, y), {x: (-2, 2), y: (-2, 2)}, [constraint, x - y == 0.1]).solve(1e-3).nodes < 0.7 * alone.solve(1e-3).nodes
 
 
-def conflicting(seed: int) -> Problem:
-    """Return a problem without a solution: some of its constraints would have one."""
-    random = np.random.default_rng(seed)
-    x, y = variables("x y")
-    forms = [x + y, x - y, x * y, x**2 + y**2, x - 2 * y, 2 * x + y, x**2 - y]
-    constraints = [forms[i % 7] == Interval(low := random.uniform(-3, 3), low + 0.5) for i in random.permutation(9)]
-    return Problem((x, y), {x: (-3, 3), y: (-3, 3)}, constraints)
-
-
-@pytest.mark.parametrize("seed", range(8))
-def test_a_conflict_is_irreducible(seed: int) -> None:
-    problem = conflicting(seed)
-    if len(problem.solve(0.05).boxes):
-        pytest.fail("choose another seed")
-    conflict = problem.why_empty(0.05)
-    assert 1 <= len(conflict) < 9
-    assert [each for each in problem.constraints if any(each is one for one in conflict)] == list(conflict)
-
-    def boxes(constraints: list[object]) -> Boxes:
-        return Problem(variables_of(problem), problem.box, constraints).solve(0.05).boxes
-
-    assert not len(boxes(list(conflict)))
-    for left_out in range(len(conflict)):
-        assert len(boxes([*conflict[:left_out], *conflict[left_out + 1 :]]))
-
-
-def variables_of(problem: Problem) -> list[object]:
-    from ial.contractors.expressions.expression import Expression
-
-    return [Expression(problem.space, axis=axis) for axis in range(problem.dimension)]
-
-
-def test_why_empty_names_the_conflict_and_only_it() -> None:
-    x, y = variables("x y")
-    a, b, c, d = x + y >= 3, x <= 1, y <= 1, x >= 0
-    domains = {x: (-9, 9), y: (-9, 9)}
-    assert Problem((x, y), domains, [d, a, b, c]).why_empty(0.1) == (a, b, c)
-    assert Problem((x, y), domains, [a, b, c, c]).why_empty(0.1) == (a, b, c)
-    assert Problem((x, y), domains | {x: (5, 9)}, [a, b, c]).why_empty(0.1) == (b,)
-    assert Problem((x, y), {x: Interval.empty()}, [a, b, c]).why_empty(0.1) == ()
-    assert Problem((x, y), {x: Interval.empty()}, [a]).propagate() == {"x": Interval.empty(), "y": Interval.empty()}
-    calls: list[Progress] = []
-    with pytest.raises(ValueError, match="is not proved empty"):
-        Problem((x, y), domains, [a, b]).why_empty(0.1, progress=calls.append)
-    assert calls
-    with pytest.raises(ValueError, match="is not proved empty"):
-        Problem((x, y), domains).why_empty(0.1)
-
-
-def test_a_finer_precision_proves_more() -> None:
-    x, y = variables("x y")
-    circle, line = x**2 + y**2 <= 1, x + y >= 1.415
-    problem = Problem((x, y), {x: (-2, 2), y: (-2, 2)}, [circle, line])
-    with pytest.raises(ValueError, match="precision 1"):
-        problem.why_empty(1.0)
-    assert problem.why_empty(0.001) == (circle, line)
-
-
 def test_families_count_as_one_constraint() -> None:
     x, y = variables("x y")
     beacons = np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]])
@@ -256,34 +138,6 @@ def test_a_problem_is_a_contractor() -> None:
     assert problem.contract(Boxes.of([(3, 5), (-5, 5)])).empty.all()
     with pytest.raises(ValueError, match="dimensions"):
         problem.contract(Boxes.of([(3, 5)]))
-
-
-def test_a_family_of_preimages_is_each_of_them() -> None:
-    x, y = variables("x y")
-    shift, turn = np.array([0.0, 1.0, -2.5]), Boxes.column([0.0, 1.0, -1.0], [0.1, 1.0, -0.5])
-    u, v = variables("u v")
-    target = (u == Interval(0, 1)) & (v >= 0.25)
-    family = FunctionFamily(x + shift[:, None] * cos(turn), sqrt(y) * sin(x + turn)).preimage(target)
-    random = np.random.default_rng(0)
-    low = random.uniform(-3, 3, (50, 2))
-    boxes = Boxes(low, low + random.uniform(0, 3, (50, 2)))
-    lower, upper = family.contract_each(boxes)
-    assert lower.shape == (50, 3, 2)
-    for j in range(3):
-        angle = Interval.of_bounds(turn.lower[j, 0], turn.upper[j, 0])
-        one = Function(x + float(shift[j]) * cos(angle), sqrt(y) * sin(x + angle)).preimage(target).contract(boxes)
-        assert lower[:, j].tobytes() == one.lower.tobytes()
-        assert upper[:, j].tobytes() == one.upper.tobytes()
-    assert (family.contract(boxes).lower >= lower.max(axis=1)).all()
-    assert relaxed(family, 3).contract(boxes).lower.tobytes() == boxes.lower.tobytes()
-    assert not relaxed(family, 1).contract(boxes).empty.all()
-    assert [bound.shape for bound in family.contract_each(Boxes.none(2))] == [(0, 3, 2)] * 2
-    with pytest.raises(ValueError, match="2 values"):
-        FunctionFamily(x + shift, y).preimage(variables("w") == 1)
-    with pytest.raises(ValueError, match="2 and 3 functions"):
-        FunctionFamily(x + shift, y + np.array([1.0, 2.0]))
-    with pytest.raises(ValueError, match="use a FunctionFamily"):
-        Function(x + shift)
 
 
 def test_all_sets_of_constraints_of_a_small_problem_agree_with_points() -> None:

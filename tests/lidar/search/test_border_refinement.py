@@ -14,7 +14,6 @@ from ial.lidar.configuration.config import LocalizerConfig
 from ial.lidar.search.border_refinement import mend, refine_border
 from ial.lidar.search.lattice import Lattice
 from ial.lidar.search.map_tables import Sections
-from ial.lidar.search.outer_faces import outer_faces
 from ial.lidar.search.scan_contractor import ScanContractor
 from ial.maps.grids.cell_index import CellIndex
 from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, UNKNOWN, OccupancyGrid
@@ -107,6 +106,7 @@ class Case:
         return moved[0], moved[1], moved[2] % self.lattice.layers
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("at_the_cut", [False, True])
 def test_a_consistent_pose_stays(at_the_cut: bool) -> None:
     sharp = narrowed = 0
@@ -136,18 +136,6 @@ def test_every_consistent_pose_of_the_cells_stays() -> None:
             assert case.holds(left, poses[number]), f"world {seed} lost pose {poses[number]}"
             edge += bad[number] == outliers
     assert edge > 3 * WORLDS
-
-
-def test_outer_faces_are_those_without_a_neighbour() -> None:
-    for seed in range(WORLDS):
-        case = Case(seed, at_the_cut=seed % 2 == 0)
-        case.cells = case.cells[np.random.default_rng(seed).random(len(case.cells)) < 0.7]
-        outer = outer_faces(case.cells, case.lattice)
-        places = case.places()
-        for number, place in enumerate(places):
-            for axis in range(3):
-                for side, step in enumerate((-1, 1)):
-                    assert outer[number, side, axis] == (case.neighbour(place, axis, step) not in places)
 
 
 @pytest.mark.slow

@@ -65,6 +65,7 @@ def test_the_cell_that_holds_a_consistent_pose_is_kept_and_its_count_is_not_too_
     assert sharp > 0.1 * WORLDS  # with one outlier less the cell is often dropped: the bound is no empty one
 
 
+@pytest.mark.slow
 def test_cells_are_kept_like_boxes_of_their_parts() -> None:
     """A part is a hair wider for the one than for the other, so a few cells more may be kept, and none less."""
     kept = more = 0

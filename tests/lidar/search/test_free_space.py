@@ -11,7 +11,7 @@ from ial.datasets.scan import LaserScan, Mounting
 from ial.lidar.configuration.config import Bounds, FreeSpace, LocalizerConfig, Precision
 from ial.lidar.evidence.beams import scan_beams, select_beams
 from ial.lidar.localizer import Localizer
-from ial.lidar.search.bit_columns import BitColumns, read_bits
+from ial.lidar.search.bit_columns import BitColumns
 from ial.lidar.search.free_space import BlockingCells, blocked, count_blocked
 from ial.maps.grids.cell_index import CellIndex
 from ial.maps.grids.floor_plan import floor_plan
@@ -89,16 +89,6 @@ def test_a_wall_across_blocks_and_a_gap_does_not(turn: float) -> None:
     assert not is_blocked(wall, box, *(turn + math.pi + each for each in (-0.006, 0.006)), 60.0, 1.0)
 
 
-def test_bits_are_read_across_words_and_outside() -> None:
-    random = np.random.default_rng(0)
-    mask = random.random((3, 200)) < 0.5
-    lines = BitColumns(mask).rightwards
-    for first in [*range(-200, 320), -(10**9), 10**9]:
-        expected = [0 <= first + i < 200 and bool(mask[1, first + i]) for i in range(64)]
-        assert int(read_bits(lines, 1, first)) == sum(1 << i for i, each in enumerate(expected) if each)
-    assert int(read_bits(lines, -1, 0)) == int(read_bits(lines, 3, 0)) == 0
-
-
 def test_blocked_beams_and_beams_without_return_count_once_each() -> None:
     grid = floor_plan(8.0, 6.0, 0.05, 2)
     mask = grid.mask(OCCUPIED)
@@ -141,6 +131,7 @@ def test_an_endless_ray_and_a_bearing_that_may_be_anything_are_bounded() -> None
         assert count_blocked(seen, blind, beams, 2, *open_side).tolist() == [count]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("outliers", [0, 3, 29, "auto"])
 def test_a_scan_of_beams_without_return_alone_keeps_every_consistent_pose(outliers: int | str) -> None:
     grid = floor_plan(8.0, 6.0, 0.1, 4)

@@ -77,6 +77,7 @@ def test_the_cells_are_distinct_and_cover_every_point_of_every_box(batch: tuple[
         assert len(finer.cover(boxes, PLENTY)) > max_cells
 
 
+@pytest.mark.slow
 @given(batches())
 @settings(max_examples=100)
 def test_no_cell_is_far_from_every_box(batch: tuple[Lattice, Boxes]) -> None:

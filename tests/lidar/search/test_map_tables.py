@@ -161,6 +161,7 @@ def test_parts_cover_their_boxes_and_lie_in_the_cores(small_sections: None) -> N
     assert (numbers[50:80][exact] == 1).all()  # a box that is a core belongs to no neighbour
 
 
+@pytest.mark.slow
 def test_a_radius_is_kept_in_sections_as_in_one_piece(small_sections: None, monkeypatch: pytest.MonkeyPatch) -> None:
     config = LocalizerConfig(bounds=CONFIG.bounds, robot_radius_m=0.4)
     in_sections = Localizer(world(), config=config)

@@ -53,6 +53,7 @@ def test_contraction_keeps_every_consistent_pose() -> None:
     assert narrowed > 0.1 * 20 * WORLDS
 
 
+@pytest.mark.slow
 def test_a_pose_at_which_too_many_beams_clearly_miss_is_emptied() -> None:
     emptied = 0
     for seed, (world, _) in enumerate(worlds()):
@@ -64,6 +65,7 @@ def test_a_pose_at_which_too_many_beams_clearly_miss_is_emptied() -> None:
     assert emptied > 0.3 * WORLDS
 
 
+@pytest.mark.slow
 def test_a_box_from_all_of_which_too_many_beams_clearly_miss_is_emptied() -> None:
     emptied = 0
     for seed, (world, random) in enumerate(worlds()):
@@ -76,6 +78,7 @@ def test_a_box_from_all_of_which_too_many_beams_clearly_miss_is_emptied() -> Non
     assert emptied > 0.1 * WORLDS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("threads", [1, 2, 3])
 def test_a_batch_says_of_each_box_what_the_box_alone_says(threads: int) -> None:
     world, random = worlds(17)[0]
@@ -94,6 +97,7 @@ def test_a_batch_says_of_each_box_what_the_box_alone_says(threads: int) -> None:
     assert 0 < together.empty.sum() < len(boxes)
 
 
+@pytest.mark.slow
 def test_kept_boxes_are_returned_as_they_are_and_the_input_is_not_modified() -> None:
     world, random = worlds(5)[0]
     boxes = Boxes.concatenate([world.box_around(random) for _ in range(50)])
@@ -109,6 +113,7 @@ def with_silent_beams(world: World, outliers: int, silent: int) -> Beams:
     return select_beams(replace(world.scan, ranges=ranges), world.bounds, outliers, len(ranges), FreeSpace(no_return_m=1.0))
 
 
+@pytest.mark.slow
 def test_as_many_outliers_as_hits_leave_a_box_as_it_is_however_many_beams_are_used() -> None:
     lost, kept = [], 0
     for seed, (world, random) in enumerate(worlds()[:200]):
@@ -125,6 +130,7 @@ def test_as_many_outliers_as_hits_leave_a_box_as_it_is_however_many_beams_are_us
     assert not lost, f"{len(lost)} of {kept} calls changed a box, such as (world, outliers) {lost[:5]}"
 
 
+@pytest.mark.slow
 def test_silent_beams_change_nothing_where_fewer_may_be_bad_than_hits() -> None:
     narrowed = 0
     for world, random in worlds()[:200]:
@@ -138,6 +144,7 @@ def test_silent_beams_change_nothing_where_fewer_may_be_bad_than_hits() -> None:
     assert narrowed > 50
 
 
+@pytest.mark.slow
 def test_a_negative_number_of_outliers_is_refused() -> None:
     world = worlds()[0][0]
     with pytest.raises(ValueError, match="may be bad is -1"):
@@ -146,6 +153,7 @@ def test_a_negative_number_of_outliers_is_refused() -> None:
         replace(world.beams(0), outliers=1.5)  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_an_end_point_that_only_touches_a_cell_is_good() -> None:
     world = worlds()[0][0]
     mask = np.zeros((8, 8), dtype=np.bool_)
@@ -164,6 +172,7 @@ def test_an_end_point_that_only_touches_a_cell_is_good() -> None:
         assert ScanContractor(beams, index).fits(Boxes(point, point))[0] == touches
 
 
+@pytest.mark.slow
 def test_a_box_too_far_away_for_the_table_is_kept() -> None:
     world = worlds()[0][0]
     for at in ((1e9, 0.0), (0.0, -1e9), (np.inf, np.inf)):

@@ -91,6 +91,7 @@ def test_contraction_is_the_exact_hull_rounded_outward_once(scene: tuple[np.ndar
     assert bounds[3] <= yu
 
 
+@pytest.mark.slow
 @settings(max_examples=200)
 @given(scenes())
 def test_contracting_twice_changes_nothing(scene: tuple[np.ndarray, float, Box]) -> None:

@@ -170,6 +170,7 @@ fuzzed = settings(max_examples=150, suppress_health_check=[HealthCheck.function_
 WHOLE = "".join(f"{key}: {value}\n" for key, value in GOOD.items()).encode()
 
 
+@pytest.mark.slow
 @fuzzed
 @given(
     content=st.binary(max_size=300)

@@ -51,6 +51,7 @@ def test_against_all_cells(bits: int, sparse: int, resolution: float, u: float, 
     assert earliest - margin <= distances <= latest + margin
 
 
+@pytest.mark.slow
 @settings(max_examples=300)
 @given(
     u=st.integers(-1, 8),

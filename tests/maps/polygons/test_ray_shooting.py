@@ -113,6 +113,7 @@ def test_what_one_ray_hits_is_in_what_its_beam_hits(seed: int) -> None:
         assert reach(walls, wall, lower, upper) >= way
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(10))
 def test_a_wall_that_stops_some_rays_of_a_beam_does_not_stop_the_others(seed: int) -> None:
     """From one arm of a corner to the other and beyond its end: the walls behind the start close the chain of walls, and stop no ray."""

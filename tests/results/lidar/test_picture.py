@@ -40,6 +40,7 @@ def test_a_run_with_a_reference(sample_run: list[Any], tmp_path: Path) -> None:
         assert has(image, colour)
 
 
+@pytest.mark.slow
 def test_without_a_reference_none_is_drawn(estimate_of: Callable[..., Any], grid: OccupancyGrid, tmp_path: Path) -> None:
     image = drawn(tmp_path / "picture.png", grid, [estimate_of(0, BOX), estimate_of(1, BOX)])
     assert has(image, STATUS_COLOURS["ambiguous"])
@@ -56,6 +57,7 @@ def test_runs_of_any_length(estimate_of: Callable[..., Any], grid: OccupancyGrid
     assert has(image, STATUS_COLOURS["localized"]) is (count > 0)
 
 
+@pytest.mark.slow
 def test_a_scan_that_left_no_pose(estimate_of: Callable[..., Any], grid: OccupancyGrid, tmp_path: Path) -> None:
     assert has(drawn(tmp_path / "picture.png", grid, [estimate_of(0, status="blind")]), STATUS_COLOURS["blind"])
 
