@@ -1,12 +1,12 @@
 """Grouping the rows of a batch by one of their intervals: bisection produces few distinct ones, and what depends on them is shared."""
 
 import numpy as np
+import numpy.typing as npt
 
 from ial.contractors.kernels import kernel
 
 
-@kernel
-def group_rows(lower, upper):  # type: ignore[no-untyped-def]
+def group_rows(lower: npt.NDArray[np.float64], upper: npt.NDArray[np.float64]) -> npt.NDArray[np.int64]:
     """Return the row numbers, rows of equal interval side by side, groups by first appearance, rows of a group in their own order.
 
     Parameters
@@ -19,6 +19,13 @@ def group_rows(lower, upper):  # type: ignore[no-untyped-def]
     numpy.ndarray
         int64 of shape (n,).
     """
+    # Columns of one row are contiguous, others are not: of each kind the kernel would be compiled once.
+    order: npt.NDArray[np.int64] = _group(np.ascontiguousarray(lower), np.ascontiguousarray(upper))
+    return order
+
+
+@kernel
+def _group(lower, upper):  # type: ignore[no-untyped-def]
     rows = len(lower)
     order = np.empty(rows, dtype=np.int64)
     labels = np.empty(rows, dtype=np.int64)

@@ -13,7 +13,8 @@ from numba.core.dispatcher import Dispatcher
 from numba.extending import intrinsic as numba_intrinsic
 
 from ial.contractors.interpreter import INTERPRETED, InterpretedCallback, interpreted
-from ial.contractors.kernel_cache import KernelCache
+from ial.contractors.kernel_cache import InlinedKernelCache, KernelCache
+from ial.contractors.kernel_dispatcher import KernelDispatcher, set_environments
 
 
 def callback(function: Callable[..., Any], *arguments: Any, keep: bool = True) -> Any:
@@ -34,6 +35,7 @@ def callback(function: Callable[..., Any], *arguments: Any, keep: bool = True) -
     if keep:
         compiled._cache = KernelCache(function)
     compiled.compile()
+    set_environments(compiled._library)
     return compiled
 
 
@@ -45,6 +47,7 @@ def kernel(function: Callable[..., Any]) -> Any:
     dispatcher = compile_users(function)
     if not INTERPRETED:
         dispatcher._cache = KernelCache(function)
+        dispatcher.inlined._cache = InlinedKernelCache(function)
     return dispatcher
 
 
@@ -53,7 +56,8 @@ def compile_users(function: Callable[..., Any]) -> Any:
     if INTERPRETED:
         return interpreted(function)
     # A wrapper for callers in C is called by nobody and takes a tenth of the time to compile.
-    return numba.njit(nogil=True, error_model="numpy", fastmath=False, forceinline=True, no_cfunc_wrapper=True)(function)
+    options = {"nopython": True, "nogil": True, "error_model": "numpy", "fastmath": False, "forceinline": True, "no_cfunc_wrapper": True}
+    return KernelDispatcher(function, targetoptions=options)
 
 
 def is_kernel(function: Any) -> bool:

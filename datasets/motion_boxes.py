@@ -52,9 +52,8 @@ def _shift(previous, now, position):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _turned(previous, now):  # type: ignore[no-untyped-def]
-    """Return the turn from one odometry to another, for all within their errors; its lower bound lies in [-π, π]."""
-    start, end = heading(previous), heading(now)
+def _turned(start, end):  # type: ignore[no-untyped-def]
+    """Return the turn from one heading to another, given their bounds; its lower bound lies in [-π, π]."""
     return wrap_angle(*sub(end[0], end[1], start[0], start[1]))
 
 
@@ -63,9 +62,9 @@ def difference(previous, now, moved):  # type: ignore[no-untyped-def]
     """Write ``previous⁻¹ ⊕ now`` for all poses within the errors of two odometry rows."""
     position = np.empty((2, 2))
     _shift(previous, now, position)
-    start = heading(previous)
+    start, end = heading(previous), heading(now)
     turn(position[0], position[1], np.array([-start[1], -start[0]]), moved)
-    moved[2, 0], moved[2, 1] = _turned(previous, now)
+    moved[2, 0], moved[2, 1] = _turned(start, end)
 
 
 @kernel
@@ -113,12 +112,13 @@ def piece(stamps, numbers, row, parts, moved):  # type: ignore[no-untyped-def]
 def along(stamps, numbers, parts, moved):  # type: ignore[no-untyped-def]
     """Write all true motions from the first row of a path to its last: its pieces composed, and once widened by the part of a scan."""
     one, composed = np.empty((3, 2)), np.empty((3, 2))
-    piece(stamps, numbers, 0, parts, moved)
-    for row in range(1, len(stamps) - 1):
+    for row in range(len(stamps) - 1):  # `piece` is long, and takes long to compile: it is called in one place
         piece(stamps, numbers, row, parts, one)
-        compose(moved, one, composed)
+        if row:
+            compose(moved, one, composed)
         for axis in range(3):
-            moved[axis, 0], moved[axis, 1] = composed[axis, 0], composed[axis, 1]
+            bounds = composed[axis] if row else one[axis]
+            moved[axis, 0], moved[axis, 1] = bounds[0], bounds[1]
     for axis in range(3):
         moved[axis, 0], moved[axis, 1] = add(moved[axis, 0], moved[axis, 1], -parts[axis, PER_SCAN], parts[axis, PER_SCAN])
 
@@ -133,11 +133,11 @@ def interpolation_error(first, second, between):  # type: ignore[no-untyped-def]
     aside, angle = 0.0, 0.0
     for neighbour in (first, second):
         _shift(between, neighbour, box)
-        box[2, 0], box[2, 1] = _turned(between, neighbour)
+        box[2, 0], box[2, 1] = _turned(heading(between), heading(neighbour))
         aside = max(aside, max(max(-box[0, 0], box[0, 1]), max(-box[1, 0], box[1, 1])))
         angle = max(angle, max(-box[2, 0], box[2, 1]))
     _shift(first, second, box)
-    box[2, 0], box[2, 1] = _turned(first, second)
+    box[2, 0], box[2, 1] = _turned(heading(first), heading(second))
     if box[2, 0] < -PI_LOWER or box[2, 1] > PI_LOWER:  # half a circle may have been turned either way
         angle = max(angle, PI_UPPER)
     return add(aside, aside, 0.0, sagitta(box))[1], angle

@@ -12,6 +12,7 @@ _KERNELS = (
     "kernels",
     "kernel_cache",
     "kernel_compiler",
+    "kernel_dispatcher",
     "kernel_folder",
     "kernel_sources",
     "prebuilt_kernels",
