@@ -159,8 +159,15 @@ class MotionBounds(Record):
         ----------
         path
             At least two odometry readings: those of two scans, and every message between them.
+
+        Raises
+        ------
+        ValueError
+            If there are fewer.
         """
         check_rounding()
+        if len(path) < 2:
+            raise ValueError(f"a path of {len(path)} odometry messages has no motion; give those of two scans, and all between them")
         moved = np.empty((3, 2))
         motion_boxes.along(path.stamps_ns, path.numbers, self.parts, moved)
         return Motion(moved[:, 0], moved[:, 1])

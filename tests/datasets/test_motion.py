@@ -191,3 +191,10 @@ def test_a_motion_is_widened_outward_by_the_part_of_a_scan() -> None:
             if not shift:
                 assert Fraction(float(motion.lower[axis])) <= Fraction(value) - Fraction(half)
                 assert Fraction(value) + Fraction(half) <= Fraction(float(motion.upper[axis]))
+
+
+@pytest.mark.parametrize("messages", [0, 1])
+def test_a_path_of_less_than_two_messages_has_no_motion(messages: int) -> None:
+    path = OdometryPath.of((stamp, Odometry.of(Pose(1.0, 2.0, 3.0))) for stamp in range(messages))
+    with pytest.raises(ValueError, match=f"a path of {messages} odometry messages has no motion"):
+        MotionBounds().along(path)
