@@ -136,7 +136,7 @@ class Reader(ABC):
         reasons = ", ".join(f"{count} × {reason}" for reason, count in self.skipped.items())
         advice = "; record the odometry too (an Odometry topic or tf odom → base_link; ODOM lines in a CARMEN log)"
         hint = advice if "no odometry" in self.skipped else ""
-        raise RecordingError(f"{self.name}: none of its {sum(self.skipped.values())} scans can be used: {reasons}{hint}")
+        raise RecordingError(f"{self.name}: no scan can be used: {reasons}{hint}")
 
     def info(self) -> RecordingInfo:
         """Read the recording and say what it holds and what is missing."""

@@ -46,9 +46,8 @@ class Paving:
     def __repr__(self) -> str:
         stopped = f", stopped early by {self.limited}" if self.limited else ""
         hull = f", hull {' × '.join(map(str, next(iter(self.hull()))))}" if len(self.boxes) else ""
-        return (
-            f"<Paving in {self.dimension} dimensions: {len(self.inner)} inner boxes, {len(self.boundary)} of the boundary{hull}{stopped}>"
-        )
+        parts = f"{len(self.inner)} inner box{'es' * (len(self.inner) != 1)}, {len(self.boundary)} of the boundary"
+        return f"<Paving in {self.dimension} dimension{'s' * (self.dimension != 1)}: {parts}{hull}{stopped}>"
 
     def _repr_png_(self) -> bytes | None:
         """Return a picture for a notebook, along the first two axes; None, which shows the text, if there is nothing that can be drawn."""

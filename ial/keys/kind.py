@@ -12,6 +12,19 @@ _TRUE = ("true", "yes", "on", "y", "t", "1", "1.0")
 _FALSE = ("false", "no", "off", "n", "f", "0", "0.0")
 
 
+_LONGEST = 100  # characters of a value in a message
+LARGEST = 10**300  # what a whole number without a limit of its own may be: no text holds one of thousands of digits
+
+
+def shown(value: object) -> str:
+    """Return how a value looks, for a message; of a long one, how it begins."""
+    try:
+        text = repr(value)
+    except ValueError:  # Python writes out no integer of more than 4300 digits
+        return "a number of thousands of digits"
+    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]}…"
+
+
 class Kind(ABC):
     """Which values a key may have."""
 
@@ -130,6 +143,8 @@ class Whole(Kind):
         number = int(value) if isinstance(value, Integral) else None
         if number is None or number < self.least or (self.most is not None and number > self.most):
             raise ValueError(f"give {self.allowed}")
+        if number > LARGEST:
+            raise ValueError("give a number of at most 300 digits")
         return number
 
     def meant(self, value: Any) -> Any:
@@ -178,10 +193,10 @@ class Word(Kind):
         return ", ".join(f"`{word}`" for word in self.words)
 
     def checked(self, value: Any) -> str:
-        """Return one of the words as it is."""
+        """Return one of the words as a text of Python."""
         if not isinstance(value, str) or value not in self.words:
             raise ValueError(f"give {self.allowed}")
-        return value
+        return str(value)  # NumPy has texts of its own
 
 
 @dataclass(frozen=True)

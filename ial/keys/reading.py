@@ -6,7 +6,7 @@ from difflib import get_close_matches
 from typing import Any, TypeVar
 
 from ial.errors import ConfigError
-from ial.keys.kind import Kind
+from ial.keys.kind import Kind, shown
 from ial.keys.record import Named, Part, Record, keys_of, names, part_of
 
 R = TypeVar("R", bound=Record)
@@ -69,9 +69,11 @@ def _value(kind: Kind, before: Any, content: Any, path: tuple[str, ...], faults:
     if part is not None and isinstance(content, Mapping):
         return _record(part, before, content, path, faults)
     if isinstance(kind, Named) and isinstance(content, Mapping):
-        faults += [f"{'.'.join(path)}: the name {name!r} is no text; put it in quotes" for name in content if not isinstance(name, str)]
+        faults += [
+            f"{'.'.join(path)}: the name {shown(name)} is no text; put it in quotes" for name in content if not isinstance(name, str)
+        ]
         return {name: _value(Part(kind.of), None, each, (*path, str(name)), faults) for name, each in content.items()}
     try:
         return kind.checked(kind.meant(content))
     except ValueError as fault:
-        faults.append(f"{'.'.join(path)} is {content!r}: {fault}")
+        faults.append(f"{'.'.join(path)} is {shown(content)}: {fault}")

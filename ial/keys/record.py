@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 from ial.errors import ConfigError
 from ial.keys.key import Key
-from ial.keys.kind import Kind, Maybe
+from ial.keys.kind import Kind, Maybe, shown
 
 
 class Record:
@@ -38,7 +38,7 @@ class Record:
             try:
                 object.__setattr__(self, name, each.kind.checked(value))
             except ValueError as fault:
-                faults.append(f"{type(self).__name__}.{name} is {value!r}: {fault}")
+                faults.append(f"{type(self).__name__}.{name} is {shown(value)}: {fault}")
         if faults:
             raise ConfigError("; ".join(faults))
 
@@ -119,7 +119,7 @@ class Named(Kind):
         """Return a dictionary of their own of records as they are."""
         if not isinstance(value, Mapping) or not all(isinstance(one, str) and isinstance(each, self.of) for one, each in value.items()):
             raise ValueError(f"give {self.allowed}")
-        return dict(value)
+        return {str(name): each for name, each in value.items()}
 
     def written(self, value: Any) -> dict[str, dict[str, Any]]:
         """Return the keys and values of each."""

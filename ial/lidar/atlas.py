@@ -55,10 +55,10 @@ class AtlasModel(Worlds[PoseSet, Motion | None, Beams]):
             contracted[name] = model.contract(states[name], replace(reading, deadline=reading.deadline.part(1.0 / waiting)))
         return PoseSets(contracted)
 
-    def unite(self, confirmed: dict[str, PoseSet], predicted: dict[str, PoseSet]) -> dict[str, PoseSet]:
+    def unite(self, allowed: dict[str, PoseSet], predicted: dict[str, PoseSet]) -> dict[str, PoseSet]:
         """Return the union in each map. Where nothing was found in any, q is compared with that of the prediction hereafter."""
-        accepted = PoseSets(confirmed if len(PoseSets(confirmed)) else predicted).accepted
-        return {name: replace(each, accepted=accepted) for name, each in super().unite(confirmed, predicted).items()}
+        accepted = PoseSets(allowed if len(PoseSets(allowed)) else predicted).accepted
+        return {name: replace(each, accepted=accepted) for name, each in super().unite(allowed, predicted).items()}
 
 
 @dataclass(frozen=True)
@@ -143,7 +143,7 @@ class Atlas:
         self._filter = SetMembershipFilter(self.model, self.config.recovery)
 
     def __repr__(self) -> str:
-        return f"<Atlas of {len(self.grids)} maps: {', '.join(self.grids)}>"
+        return f"<Atlas of {len(self.grids)} map{'s' * (len(self.grids) != 1)}: {', '.join(self.grids)}>"
 
     @property
     def poses(self) -> dict[str, PoseSet]:

@@ -78,7 +78,7 @@ class Estimate:
 
     def __repr__(self) -> str:
         at = "" if self.pose is None else f" around {self.pose}"
-        left = f"{self.status}, {self._left} in {len(self.poses)} boxes{at}"
+        left = f"{self.status}, {self._left} in {len(self.poses)} box{'es' * (len(self.poses) != 1)}{at}"
         return f"<Estimate at {self.stamp_ns} ns: {left}; {self.outliers_allowed} of {self.beams} beams may be bad>"
 
     def _repr_png_(self) -> bytes:

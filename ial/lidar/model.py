@@ -75,7 +75,7 @@ class LidarModel(ContractingModel[PoseSet, Motion | None, Beams]):
             position_m=config.precision.position_m,
         )
         self._universe = PoseSet(self.sections.universe)
-        most = _LAID_OUT_CELLS if config.max_seconds is None else max(64, int(_CELLS_PER_S * config.max_seconds))
+        most = _LAID_OUT_CELLS if config.max_seconds is None else int(max(64.0, min(_CELLS_PER_S * config.max_seconds, _LAID_OUT_CELLS)))
         self._affordable = min(most, _LAID_OUT_CELLS, config.max_boxes)
 
     def __repr__(self) -> str:
@@ -245,9 +245,9 @@ class LidarModel(ContractingModel[PoseSet, Motion | None, Beams]):
         at = Boxes.of([(pose.x, pose.x), (pose.y, pose.y)])
         return any(bool(self.sections[key].domain.meet(part)[0]) for key, _, part in self.sections.parts(at))
 
-    def unite(self, confirmed: PoseSet, predicted: PoseSet) -> PoseSet:
+    def unite(self, allowed: PoseSet, predicted: PoseSet) -> PoseSet:
         """Return poses that a scan allows and, as unconfirmed ones, poses of which the odometry alone is known."""
-        return unite(confirmed, predicted)
+        return unite(allowed, predicted)
 
     def exhausted(self, states: PoseSet, motion: Motion | None) -> bool:
         """Return whether a step from here searches the whole map."""

@@ -58,7 +58,7 @@ class PoseSet:
 
     def __repr__(self) -> str:
         hull = f", hull {' × '.join(map(str, next(iter(self.boxes.hull()))))}" if len(self) else ""
-        return f"<PoseSet of {len(self)} boxes in the grid's frame{hull}>"
+        return f"<PoseSet of {len(self)} box{'es' * (len(self) != 1)} in the grid's frame{hull}>"
 
     @functools.cached_property
     def clusters(self) -> Clusters:
@@ -113,15 +113,15 @@ def _names(boxes: Boxes) -> npt.NDArray[np.void]:
     return np.ascontiguousarray(bounds).view(f"V{bounds.itemsize * bounds.shape[1]}").reshape(-1)
 
 
-def unite(confirmed: PoseSet, predicted: PoseSet) -> PoseSet:
+def unite(allowed: PoseSet, predicted: PoseSet) -> PoseSet:
     """Return the union of poses that a scan allows, as its search has left them, and poses that are only predicted: unconfirmed ones."""
     return PoseSet(
-        Boxes.concatenate([confirmed.boxes, predicted.boxes]),
-        np.concatenate([confirmed.unconfirmed, np.ones(len(predicted), dtype=np.bool_)]),
-        confirmed.limited or predicted.limited,
-        np.concatenate([confirmed.bad, predicted.bad]),
-        confirmed.outliers,
-        confirmed.accepted if len(confirmed) else predicted.accepted,
+        Boxes.concatenate([allowed.boxes, predicted.boxes]),
+        np.concatenate([allowed.unconfirmed, np.ones(len(predicted), dtype=np.bool_)]),
+        allowed.limited or predicted.limited,
+        np.concatenate([allowed.bad, predicted.bad]),
+        allowed.outliers,
+        allowed.accepted if len(allowed) else predicted.accepted,
     )
 
 

@@ -47,10 +47,10 @@ class Lapses(Model[tuple[States, ...], Motion, Reading]):
         both = [self.model.unite(kept, missed) for kept, missed in zip(right[1:], wrong, strict=False)]
         return (right[0], *both, *wrong[len(both) :])
 
-    def unite(self, confirmed: tuple[States, ...], predicted: tuple[States, ...]) -> tuple[States, ...]:
+    def unite(self, allowed: tuple[States, ...], predicted: tuple[States, ...]) -> tuple[States, ...]:
         """Return the union for each number of wrong readings."""
-        both = [self.model.unite(*each) for each in zip(confirmed, predicted, strict=False)]
-        return (*both, *confirmed[len(both) :], *predicted[len(both) :])
+        both = [self.model.unite(*each) for each in zip(allowed, predicted, strict=False)]
+        return (*both, *allowed[len(both) :], *predicted[len(both) :])
 
     def empty(self, states: tuple[States, ...]) -> bool:
         """Return whether no state is left: more readings are wrong than may be, or something else is."""

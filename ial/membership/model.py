@@ -24,7 +24,7 @@ class Model(Protocol[States, Motion, Reading]):
         """Return a set that holds every state which a motion can lead to with a reading."""
 
     @abstractmethod
-    def unite(self, confirmed: States, predicted: States) -> States:
+    def unite(self, allowed: States, predicted: States) -> States:
         """Return the union of states that a reading allows and of states of which a motion alone is known."""
 
     @abstractmethod

@@ -39,9 +39,9 @@ class Worlds(Model[dict[str, States], Motion, Reading]):
         """Return where a motion can lead with a reading in each world."""
         return {name: model.step(states[name], motion, reading) for name, model in self.models.items()}
 
-    def unite(self, confirmed: dict[str, States], predicted: dict[str, States]) -> dict[str, States]:
+    def unite(self, allowed: dict[str, States], predicted: dict[str, States]) -> dict[str, States]:
         """Return the union in each world."""
-        return {name: model.unite(confirmed[name], predicted[name]) for name, model in self.models.items()}
+        return {name: model.unite(allowed[name], predicted[name]) for name, model in self.models.items()}
 
     def empty(self, states: dict[str, States]) -> bool:
         """Return whether no state is left in any world."""

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from ial.keys.kind import Kind, Maybe, Number, Truth, Whole, Word
+from ial.keys.kind import Kind, Maybe, Number, Truth, Whole, Word, shown
 
 BOUND = Number(least=0.0)
 SIZE = Number(above=0.0)
@@ -27,6 +27,7 @@ SIZE = Number(above=0.0)
         (Whole(1), 2**70, 2**70),
         (Truth(), np.bool_(False), False),
         (Word(("a", "b")), "b", "b"),
+        (Word(("a", "b")), np.str_("b"), "b"),
         (Maybe(SIZE), None, None),
         (Maybe(SIZE), 3, 3.0),
     ],
@@ -101,3 +102,14 @@ def test_a_text_may_stand_for_a_value(kind: Kind, text: Any, meant: Any) -> None
     kept = kind.meant(text)
     assert kept == meant
     assert type(kept) is type(meant)
+
+
+def test_a_long_value_is_shown_by_how_it_begins() -> None:
+    assert shown("ab") == "'ab'"
+    assert shown("a" * 500) == "'" + 99 * "a" + "…"
+    assert shown(10**5000) == "a number of thousands of digits"
+
+
+def test_a_number_that_no_file_can_hold_is_refused() -> None:
+    with pytest.raises(ValueError, match="at most 300 digits"):
+        Whole(1).checked(10**5000)

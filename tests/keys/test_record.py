@@ -38,6 +38,7 @@ def test_values_are_kept_in_plain_types_and_dictionaries_are_its_own() -> None:
     doors.clear()
     assert type(room.doors["red"].width) is float
     assert list(room.doors) == ["red"]
+    assert [type(name) for name in Room(doors={np.str_("red"): Size(0.5)}).doors] == [str]
 
 
 @pytest.mark.parametrize(

@@ -312,7 +312,7 @@ def test_a_forked_process_localizes_alike_and_another_rounding_mode_is_refused()
     assert done.stdout.strip() == "done", done.stderr
 
 
-@pytest.mark.parametrize("seconds", [1e-6, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2])
+@pytest.mark.parametrize("seconds", [1e-6, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e308])
 def test_however_little_time_there_is_the_truth_stays(seconds: float) -> None:
     for outliers in (3, "auto"):
         localizer = Localizer(world(), config=replace(CONFIG, outliers=outliers, max_seconds=seconds))  # type: ignore[arg-type]

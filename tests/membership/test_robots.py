@@ -45,8 +45,8 @@ class Coloured(ContractingModel[States, int, int]):
     def contract(self, states: States, reading: int) -> States:
         return frozenset(place for place in states if COLOURS[place] == reading)
 
-    def unite(self, confirmed: States, predicted: States) -> States:
-        return confirmed | predicted
+    def unite(self, allowed: States, predicted: States) -> States:
+        return allowed | predicted
 
     def empty(self, states: States) -> bool:
         return not states
@@ -64,8 +64,8 @@ class Blind(Model[States, int, None]):
     def step(self, states: States, motion: int, reading: None) -> States:
         return self.predict(states, motion)
 
-    def unite(self, confirmed: States, predicted: States) -> States:
-        return confirmed | predicted
+    def unite(self, allowed: States, predicted: States) -> States:
+        return allowed | predicted
 
     def empty(self, states: States) -> bool:
         return not states

@@ -22,8 +22,8 @@ class Corridor(ContractingModel[States, int, set[int]]):
         self.calls.append("contract")
         return states & reading
 
-    def unite(self, confirmed: States, predicted: States) -> States:
-        return confirmed | predicted
+    def unite(self, allowed: States, predicted: States) -> States:
+        return allowed | predicted
 
     def empty(self, states: States) -> bool:
         return not states

@@ -73,9 +73,9 @@ class BouncingModel(Model[Vertices, None, int]):
         out = np.empty(len(states), dtype=np.int32)
         return out[: _advance(self.graph.arcs, states, bool(reading), either, self._seen, out)].copy()
 
-    def unite(self, confirmed: Vertices, predicted: Vertices) -> Vertices:
+    def unite(self, allowed: Vertices, predicted: Vertices) -> Vertices:
         """Return the vertices of either set."""
-        return np.union1d(confirmed, predicted)
+        return np.union1d(allowed, predicted)
 
     def empty(self, states: Vertices) -> bool:
         """Return whether no vertex is left: the trap, if the filter absorbs."""

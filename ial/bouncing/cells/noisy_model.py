@@ -57,9 +57,9 @@ class NoisyModel(Model[Vertices, None, int]):
         """Return where the robot can be after a step with a bump (1) or without one (0)."""
         return self._out[: _spread(self.graph.starts[reading], self.graph.ends[reading], states, self._seen, self._out)].copy()
 
-    def unite(self, confirmed: Vertices, predicted: Vertices) -> Vertices:
+    def unite(self, allowed: Vertices, predicted: Vertices) -> Vertices:
         """Return the vertices of either set."""
-        return np.union1d(confirmed, predicted)
+        return np.union1d(allowed, predicted)
 
     def empty(self, states: Vertices) -> bool:
         """Return whether no vertex is left."""

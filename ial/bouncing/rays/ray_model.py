@@ -135,9 +135,9 @@ class RayModel(Model[RaySet, None, int]):
         longer = RaySet(states.walls, states.lower, states.upper, (states.steps + steps).astype(np.int32), states.arriving, states.reach)
         return self._bumped(longer)
 
-    def unite(self, confirmed: RaySet, predicted: RaySet) -> RaySet:
+    def unite(self, allowed: RaySet, predicted: RaySet) -> RaySet:
         """Return the pieces of either set."""
-        return RaySet.joined(confirmed, predicted)
+        return RaySet.joined(allowed, predicted)
 
     def empty(self, states: RaySet) -> bool:
         """Return whether nothing is left: the robot is in no place of the environment."""

@@ -38,6 +38,8 @@ def lines(record: Mapping[str, Any], most: int) -> Iterator[str]:
     for at in record["rejected_at"]:
         yield f"rejected at observation {at}: no place in the environments fits; the robot is elsewhere, was carried, or erred"
     count, places = record["configurations"], record["places"]
+    if record["localized_at"] is not None and not record["localized"]:
+        yield f"localized at observation {record['localized_at']}, and no longer"
     if not count:
         yield f"after {record['observations']} observations: in none of the environments"
         return

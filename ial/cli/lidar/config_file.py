@@ -6,12 +6,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from ial.errors import ConfigError
 from ial.keys.entry import entries, gone
+from ial.keys.kind import shown
 from ial.lidar.configuration.config import LocalizerConfig
-from ial.lidar.configuration.config_record import config_of, file_content
+from ial.lidar.configuration.config_record import config_of, file_content, yaml_content
 
 _PREFIX = "IAL_"
 _OTHER_VARIABLES = ("IAL_THREADS", "IAL_CACHE_DIR", "IAL_DATA", "IAL_ITF1788")
@@ -93,9 +92,11 @@ def _nested(path: Sequence[str], value: Any) -> dict[str, Any]:
 
 def _parsed(text: str, source: str) -> Any:
     try:
-        return yaml.safe_load(text)
-    except yaml.YAMLError:
-        raise ConfigError(f"{source}: {text!r} is no value; give a number or a word") from None
+        return yaml_content(text)
+    except ConfigError as error:
+        raise ConfigError(f"{source}: {error}") from None
+    except ValueError:
+        raise ConfigError(f"{source}: {shown(text)} is no value; give a number or a word") from None
 
 
 def _merged(below: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:

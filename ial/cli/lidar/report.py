@@ -33,11 +33,11 @@ def report(summary: "Summary", record: Mapping[str, Any]) -> Iterator[str]:
         for reason, count in scans[word].items():
             yield f"{word}: {count} × {reason}"
     if scans["uninformative"]:
-        yield f"uninformative: {scans['uninformative']} scans without usable beams, or with as many outliers allowed"
+        yield f"uninformative: {_scans(scans['uninformative'])} without usable beams, or with as many outliers allowed"
     if scans["vanishing"]:
-        yield f"vanishing: {scans['vanishing']} scans left less than the errors of their beams alone leave open; trust their answers least"
+        yield f"vanishing: {_scans(scans['vanishing'])} left less than the errors of the beams alone leave open; trust such answers least"
     for limit, count in scans["limited"].items():
-        yield f"limited: {count} scans by the limit on {limit}, whose answers are coarser"
+        yield f"limited: {_scans(count)} by the limit on {limit}, with coarser answers"
     for frame in scans["lidars_without_scans"]:
         yield f"the configuration has errors of a lidar {frame}, from which no scan came; its frame is called otherwise"
     yield from _measures(record["measures"])
@@ -64,9 +64,13 @@ def _measures(measures: Mapping[str, Any] | None) -> Iterator[str]:
         return
     yield f"reference contained in {_share(measures['contained'])} of {reference} scans, in a hull in {_share(measures['contained_hull'])}"
     yield f"where the assumptions hold ({holds} scans): contained in {_share(measures['contained_when_assumptions_hold'])}"
-    broken = ", ".join(f"{count} {name.replace('_', ' ')}" for name, count in measures["broken"].items() if count)
+    broken = ", ".join(f"{name.replace('_', ' ')} in {_scans(count)}" for name, count in measures["broken"].items() if count)
     if broken:
-        yield f"where they do not: {broken}"
+        yield f"what breaks them elsewhere: {broken}"
+
+
+def _scans(count: int) -> str:
+    return f"{count} scan{'s' * (count != 1)}"
 
 
 def _share(share: float | None) -> str:

@@ -61,18 +61,36 @@ def file_content(file: Path) -> dict[Any, Any]:
         If it cannot be read, is no YAML file of keys, or holds a key twice.
     """
     try:
-        content = yaml.load(file.read_text(encoding="utf-8"), Loader=_Loader)
+        content = yaml_content(file.read_text(encoding="utf-8"))
     except ConfigError as error:
         raise ConfigError(f"{file}: {error}") from None
     except OSError as error:
         raise ConfigError(f"{file}: the configuration cannot be read ({error.strerror or error}); check the path") from None
-    except (yaml.YAMLError, UnicodeDecodeError, RecursionError, ValueError) as error:
+    except ValueError as error:
         raise ConfigError(f"{file}: not a YAML file ({error}); `ial localize --dump-config` prints one to begin with") from None
     if content is None:
         return {}
     if not isinstance(content, dict):
         raise ConfigError(f"{file}: holds no `key: value` lines; `ial localize --dump-config` prints a file to begin with")
     return content
+
+
+def yaml_content(text: str) -> Any:
+    """Return what a text in YAML says.
+
+    Raises
+    ------
+    ConfigError
+        If it holds a key twice.
+    ValueError
+        If it is no YAML, or a value in it is none of the type that it looks like: a date of a 13th month.
+    """
+    try:
+        return yaml.load(text, Loader=_Loader)
+    except ConfigError:
+        raise
+    except Exception as error:  # what a constructor of PyYAML raises depends on the text: KeyError, AttributeError, RecursionError, …
+        raise ValueError(str(error)) from None
 
 
 class _Loader(yaml.SafeLoader):

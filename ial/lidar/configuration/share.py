@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ial.errors import ConfigError
-from ial.keys.kind import Kind
+from ial.keys.kind import LARGEST, Kind, shown
 
 Share = int | float | Fraction
 
@@ -41,7 +41,7 @@ class ShareKind(Kind):
     def checked(self, value: Any) -> Any:
         """Return a share in the plain types of Python."""
         if self.auto and isinstance(value, str) and value == "auto":
-            return value
+            return str(value)
         share = share_of(value)
         if share is None:
             raise ValueError(f"give {self.allowed}")
@@ -74,7 +74,9 @@ def share_of(value: object) -> Share | None:
     if isinstance(value, bool | np.bool_):
         return None
     if isinstance(value, Integral):
-        return int(value) if int(value) >= 0 else None
+        return int(value) if 0 <= int(value) <= LARGEST else None
+    if isinstance(value, Decimal) and not value.is_finite():
+        return None
     if isinstance(value, Decimal | Fraction):
         return Fraction(value) if 0 <= value <= 1 else None
     if isinstance(value, float | np.floating):
@@ -96,7 +98,7 @@ def number_of(share: Share, beams: int) -> int:
     """
     exact = share_of(share)
     if exact is None:
-        raise ConfigError(f"{share!r} is no share of the beams; give a whole number of them, or a part from 0.0 to 1.0")
+        raise ConfigError(f"{shown(share)} is no share of the beams; give a whole number of them, or a part from 0.0 to 1.0")
     return exact if isinstance(exact, int) else _whole_part(exact, beams)
 
 

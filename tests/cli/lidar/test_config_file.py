@@ -1,6 +1,7 @@
 import math
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -120,3 +121,25 @@ def test_an_empty_file_changes_nothing(tmp_path: Path) -> None:
 def test_a_wrong_setting_is_named_with_its_source(settings: list[str], environment: dict[str, str], message: str) -> None:
     with pytest.raises(ConfigError, match=message):
         resolve(None, settings, environment)
+
+
+@pytest.mark.parametrize(
+    "value",
+    ["2024-13-45", "!!float x", "!!int x", "!!bool x", "!!timestamp x", "9" * 5000, "0x" + "f" * 5000, "[" * 2000, "{a: 1"],
+    ids=lambda value: value[:12],
+)
+def test_a_value_that_only_looks_like_one_is_an_error_in_every_source(value: str, tmp_path: Path) -> None:
+    (tmp_path / "c.yaml").write_text(f"max_boxes: {value}\n")
+    sources: list[dict[str, Any]] = [
+        {"settings": [f"max_boxes={value}"]},
+        {"environment": {"IAL_MAX_BOXES": value}},
+        {"file": tmp_path / "c.yaml"},
+    ]
+    for source in sources:
+        with pytest.raises(ConfigError, match=r"max_boxes|MAX_BOXES|not a YAML file"):
+            resolve(**{"environment": {}, **source})
+
+
+def test_a_key_that_is_there_twice_in_one_setting_is_refused() -> None:
+    with pytest.raises(ConfigError, match=r"--set .*'position_m' is there twice"):
+        resolve(settings=["precision={position_m: 1, position_m: 2}"], environment={})

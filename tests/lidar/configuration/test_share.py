@@ -81,3 +81,16 @@ def test_a_text_that_is_no_fraction_is_refused(text: str) -> None:
 def test_no_number_is_made_of_what_is_no_share(share: Any) -> None:
     with pytest.raises(ConfigError, match="no share of the beams"):
         number_of(share, 10)
+
+
+@pytest.mark.parametrize(
+    "wrong", [Decimal("nan"), Decimal("sNaN"), Decimal("inf"), math.nan, 10**5000], ids=["nan", "sNaN", "inf", "float", "long"]
+)
+def test_what_is_no_number_or_no_file_can_hold_is_no_share(wrong: Any) -> None:
+    for key in KEYS:
+        with pytest.raises(ConfigError, match=f"LocalizerConfig.{key} is "):
+            LocalizerConfig(**{key: wrong})
+
+
+def test_the_word_auto_is_a_text_of_python_whoever_gives_it() -> None:
+    assert "outliers: auto" in config_yaml(LocalizerConfig(outliers=np.str_("auto")))  # type: ignore[arg-type]
