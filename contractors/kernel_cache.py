@@ -17,7 +17,6 @@ from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 from numba.core.typing.templates import Signature
 
-from ial.contractors.kernel_dispatcher import rebuild_inlined
 from ial.contractors.kernel_folder import kernel_folder
 from ial.contractors.kernel_sources import kernel_sources
 from ial.contractors.prebuilt_kernels import prebuilt_kernels
@@ -73,9 +72,6 @@ class KernelCache(_Cache):  # type: ignore[misc]
         nothing watches its source for changes.
     """
 
-    _kind = "whole"  # as which it is kept
-    _rebuild_result = staticmethod(CompileResult._rebuild)
-
     def __init__(self, function: Callable[..., Any]) -> None:
         self._function = function
         self._modules = {part.__module__ for part in _functions(function)}
@@ -104,7 +100,7 @@ class KernelCache(_Cache):  # type: ignore[misc]
         modules = self._modules.union(*map(_origins, arguments))
         if unwatched := modules - kernel_sources().files.keys():
             raise TypeError(f"{self._function.__qualname__} was given {signature}: nothing watches the source of {', '.join(unwatched)}")
-        decisive = self._kind, _identity(self._function), str(signature), kernel_sources().hash(modules)
+        decisive = _identity(self._function), str(signature), kernel_sources().hash(modules)
         return f"{self._function.__name__}-{hashlib.sha256(repr(decisive).encode()).hexdigest()[:32]}.kernel"
 
     def load_overload(self, signature: Any, target_context: Any) -> Any:
@@ -115,7 +111,7 @@ class KernelCache(_Cache):  # type: ignore[misc]
         name = self._name(signature)
         try:
             for folder in (kernel_folder(), *prebuilt_kernels()):
-                if (kept := folder.read(name)) is not None and (rebuilt := self._rebuild(kept, signature, target_context)) is not None:
+                if (kept := folder.read(name)) is not None and (rebuilt := _rebuild(kept, signature, target_context)) is not None:
                     return rebuilt
         except Exception as error:  # whatever is wrong with what was kept: the source is there
             _announce("compiling kernels again, for what was kept cannot be used: %s", error)
@@ -138,13 +134,7 @@ class KernelCache(_Cache):  # type: ignore[misc]
             result = result._replace(type_annotation="")  # long, and it names the folders of this machine
             folder.write(self._name(signature), dumps((signature, result._reduce())))
 
-    def _rebuild(self, kept: bytes, signature: Any, target_context: Any) -> Any:
-        kept_signature, result = pickle.loads(kept)
-        return self._rebuild_result(target_context, *result) if kept_signature == signature else None
 
-
-class InlinedKernelCache(KernelCache):
-    """The same for the code that becomes a part of other kernels."""
-
-    _kind = "inlined"
-    _rebuild_result = staticmethod(rebuild_inlined)
+def _rebuild(kept: bytes, signature: Any, target_context: Any) -> Any:
+    kept_signature, result = pickle.loads(kept)
+    return CompileResult._rebuild(target_context, *result) if kept_signature == signature else None

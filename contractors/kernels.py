@@ -13,8 +13,7 @@ from numba.core.dispatcher import Dispatcher
 from numba.extending import intrinsic as numba_intrinsic
 
 from ial.contractors.interpreter import INTERPRETED, InterpretedCallback, interpreted
-from ial.contractors.kernel_cache import InlinedKernelCache, KernelCache
-from ial.contractors.kernel_dispatcher import KernelDispatcher, set_environments
+from ial.contractors.kernel_cache import KernelCache
 
 
 def callback(function: Callable[..., Any], *arguments: Any, keep: bool = True) -> Any:
@@ -35,7 +34,6 @@ def callback(function: Callable[..., Any], *arguments: Any, keep: bool = True) -
     if keep:
         compiled._cache = KernelCache(function)
     compiled.compile()
-    set_environments(compiled._library)
     return compiled
 
 
@@ -47,7 +45,6 @@ def kernel(function: Callable[..., Any]) -> Any:
     dispatcher = compile_users(function)
     if not INTERPRETED:
         dispatcher._cache = KernelCache(function)
-        dispatcher.inlined._cache = InlinedKernelCache(function)
     return dispatcher
 
 
@@ -56,8 +53,7 @@ def compile_users(function: Callable[..., Any]) -> Any:
     if INTERPRETED:
         return interpreted(function)
     # A wrapper for callers in C is called by nobody and takes a tenth of the time to compile.
-    options = {"nopython": True, "nogil": True, "error_model": "numpy", "fastmath": False, "forceinline": True, "no_cfunc_wrapper": True}
-    return KernelDispatcher(function, targetoptions=options)
+    return numba.njit(nogil=True, error_model="numpy", fastmath=False, forceinline=True, no_cfunc_wrapper=True)(function)
 
 
 def is_kernel(function: Any) -> bool:

@@ -12,7 +12,6 @@ _KERNELS = (
     "kernels",
     "kernel_cache",
     "kernel_compiler",
-    "kernel_dispatcher",
     "kernel_folder",
     "kernel_sources",
     "prebuilt_kernels",
