@@ -5,9 +5,12 @@ PYTHON ?= python3
 PYTEST_ARGS ?= --numprocesses auto --dist worksteal
 export PYTHON
 
-# The folders of the tests that run kernels. With NUMBA_DISABLE_JIT=1 these take few cases, and those that take many are left out.
-INTERPRETED = tests/test_lazy.py tests/contractors tests/maps tests/membership tests/lidar/evidence tests/lidar/search \
-    tests/datasets/test_motion_boxes.py $(addprefix tests/bouncing/,automata cells exports filters planning)
+# What runs kernels in minutes with NUMBA_DISABLE_JIT=1: there, tests take few cases, and those that take many are left out.
+_INTERVALS = angle arithmetic conversion double error_free exp_log integer interval literal narrowing reverse_integer reverse_powers
+INTERPRETED = tests/test_lazy.py tests/contractors/test_interpreter.py tests/contractors/test_rounding.py \
+    $(_INTERVALS:%=tests/contractors/intervals/test_%.py) tests/contractors/expressions/test_operation.py \
+    tests/contractors/expressions/test_functions.py tests/contractors/paving tests/contractors/solving \
+    tests/maps tests/membership tests/lidar/search tests/bouncing/automata
 FAST = not slow and not data
 
 .PHONY: help demo test check interpreted coverage lint docs smoke wheel interpreters requirements clean

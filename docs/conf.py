@@ -28,6 +28,7 @@ myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 napoleon_google_docstring = False
 napoleon_use_ivar = True
+napoleon_use_rtype = False  # what stands there is the name of a result, and no class to link to
 
 html_theme = "sphinx_book_theme"
 html_title = "ial"
