@@ -46,7 +46,7 @@ def convert(recording: Recording, path: str | Path) -> int:
 
     mountings: dict[str, Mounting] = {}
     count = 0
-    messages = CopiedMessages(str(path))
+    messages = CopiedMessages(recording.name)
     with BagWriter(path) as bag:
         for reading in recording.readings():
             frame, mounting = reading.scan.frame_id, reading.scan.mounting

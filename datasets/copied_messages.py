@@ -20,7 +20,7 @@ class CopiedMessages:
     Parameters
     ----------
     name
-        What to call the copy in messages.
+        What to call the recording in messages.
     """
 
     def __init__(self, name: str) -> None:
@@ -83,7 +83,11 @@ class CopiedMessages:
                 raise OutputError(self._mended(reading))
 
     def _mended(self, reading: Reading) -> str:
-        return f"{self._name}: stamps before scan {reading.index} were mended, and its copy would have other odometry during a scan"
+        return (
+            f"{self._name}: before scan {reading.index} come odometry messages that a scan before it, during which they would be, does not "
+            "have, as where stamps go back and are mended; a copy would have other odometry during a scan: copy one lidar alone "
+            "(--scan-topic), or only the time in which stamps increase"
+        )
 
     def _take_sweep(self, reading: Reading) -> None:
         """Take note of which messages there are during a scan; refuse a sweep back over others than were written."""

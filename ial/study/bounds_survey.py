@@ -28,7 +28,9 @@ OUTLIERS = (0.0, 0.02, 0.05, 0.1, 0.15, 0.2, 0.3)
 
 QUANTILES = (0.5, 0.9, 0.95, 0.98, 0.99)
 
-_TYPICAL_OUTLIERS, _TYPICAL_SCANS = 0.1, 0.95  # the suggested bound leaves at most so many beams bad in so many scans
+TYPICAL_OUTLIERS, TYPICAL_SCANS = 0.1, 0.95
+"""The suggested total leaves at most this share of the beams bad, in at least this share of the scans."""
+
 _HELD = 0.99  # of scans and steps, by what is suggested
 
 
@@ -114,21 +116,28 @@ class BoundsSurvey:
         shares = np.array(self._shares)
         return np.array([[np.mean(shares[:, row] <= outliers) for outliers in OUTLIERS] for row in range(len(TOTALS_M))])
 
+    def total_m(self) -> float | None:
+        """Return the smallest total tried that leaves at most 10 % of the beams bad in 95 % of the scans; None if none of them does."""
+        held = self.held()[:, OUTLIERS.index(TYPICAL_OUTLIERS)]
+        rows = np.flatnonzero(held >= TYPICAL_SCANS)
+        return TOTALS_M[rows[0]] if len(rows) else None
+
     def suggestion(self) -> LocalizerConfig:
         """Return the configuration with bounds that this recording keeps in 99 % of its scans and steps.
 
-        The total bound is the smallest one tried that leaves at most 10 % of the beams bad in 95 % of the scans. The motion bounds are
-        those of `fitted`.
+        The total bound is `total_m`; where that is None, the bounds of beams and `max_outliers` stay as they are configured. The motion
+        bounds are those of `fitted`.
         """
-        held, column = self.held(), OUTLIERS.index(_TYPICAL_OUTLIERS)
-        rows = np.flatnonzero(held[:, column] >= _TYPICAL_SCANS)
-        row = int(rows[0]) if len(rows) else len(TOTALS_M) - 1
         bounds = self.config.bounds
-        wanted = dataclasses.replace(bounds, map_error_m=round(max(TOTALS_M[row] - bounds.range_error_m, 0.0), 3))
         if self._steps:
-            wanted = dataclasses.replace(wanted, motion=fitted(bounds.motion, self._steps, _HELD))
-        config = dataclasses.replace(self.config, bounds=wanted)
+            bounds = dataclasses.replace(bounds, motion=fitted(bounds.motion, self._steps, _HELD))
+        total = self.total_m()
+        if total is None:
+            return dataclasses.replace(self.config, bounds=bounds)
+        bounds = dataclasses.replace(bounds, map_error_m=round(max(total - bounds.range_error_m, 0.0), 3))
+        config = dataclasses.replace(self.config, bounds=bounds)
         if config.outliers == "auto":
+            row = TOTALS_M.index(total)
             needed = float(np.quantile([shares[row] for shares in self._shares], _HELD))
             margin = 0 if isinstance(config.outlier_margin, int) else Fraction(str(config.outlier_margin))
             most = math.ceil(100 * (Fraction(str(needed)) + margin)) / 100
@@ -148,6 +157,7 @@ class BoundsSurvey:
                 f"{total:g}": {f"{outliers:g}": float(share) for outliers, share in zip(OUTLIERS, row, strict=True)}
                 for total, row in zip(TOTALS_M, self.held(), strict=True)
             },
+            "suggested_total_m": self.total_m(),
             "motion": {
                 "steps": len(self._steps),
                 "messages": sum(step.messages for step in self._steps),

@@ -56,3 +56,17 @@ def test_the_suggestion_holds() -> None:
     assert again["motion"]["held"] >= 0.98
     assert suggestion.bounds.motion.rotation.per_message < 0.2
     assert suggestion.bounds.motion.translation.per_message > 0.01
+
+
+def test_bounds_of_beams_stay_as_they_are_where_no_total_is_kept() -> None:
+    grid = floor_plan(12.0, 10.0, 0.05, 4)
+    loose = MotionBounds(ErrorBound(0.06, 0.04, 0.04), ErrorBound(0.04, 0.02, 0.1))
+    config = LocalizerConfig(bounds=Bounds(0.02, 0.0, 0.04, loose), max_outliers=0.25)
+    kept, broken = (survey_of(grid, config, 2, outliers, scans=10) for outliers in (4, 60))
+    assert kept.total_m() == kept.record()["suggested_total_m"] == 0.05
+    assert kept.suggestion().bounds.map_error_m == 0.03
+    assert broken.held()[-1, OUTLIERS.index(0.1)] < 0.95
+    assert broken.total_m() is broken.record()["suggested_total_m"] is None
+    suggestion = broken.suggestion()
+    assert suggestion.bounds.motion != loose
+    assert replace(suggestion, bounds=replace(suggestion.bounds, motion=loose)) == config

@@ -6,6 +6,7 @@ from typing import Any
 
 from ial.lidar.configuration.config import LocalizerConfig
 from ial.lidar.configuration.config_record import config_record
+from ial.study.bounds_survey import TOTALS_M, TYPICAL_OUTLIERS, TYPICAL_SCANS
 
 _MOST_BAD = 0.4  # of the beams of a scan; in a map of another place three in four are bad
 _FEW_STEPS = 300  # of which three break what holds in 99 %
@@ -44,7 +45,8 @@ def lines(record: Mapping[str, Any], config: LocalizerConfig) -> Iterator[str]:
     yield ""
     before, after = config_record(config), record["suggestion"]
     changed = list(_changes(before, after))
-    yield "suggested, so that 99 % of these scans and of these steps hold:" if changed else "nothing to change"
+    kept = "99 % of these steps hold" if record["suggested_total_m"] is None else "99 % of these scans and of these steps hold"
+    yield f"suggested, so that {kept}:" if changed else "nothing to change"
     yield from changed
 
 
@@ -60,6 +62,13 @@ def doubts(record: Mapping[str, Any]) -> Iterator[str]:
         yield (
             f"in half of the scans more than {_MOST_BAD:.0%} of the beams are bad: the reference, its frame (--truth-frame) or the map "
             "probably does not belong to this recording, and then nothing that is suggested means anything"
+        )
+    if record["suggested_total_m"] is None:
+        most = record["held"][f"{TOTALS_M[-1]:g}"][f"{TYPICAL_OUTLIERS:g}"]
+        yield (
+            f"no bound that was tried leaves at most {TYPICAL_OUTLIERS:.0%} of the beams bad in {TYPICAL_SCANS:.0%} of the scans "
+            f"({TOTALS_M[-1]:g} m, the largest, in {most:.1%}), so nothing is suggested for the beams: range_error_m, map_error_m and "
+            "max_outliers stay as they were; see in picture.png where beams fail, and take a map of the place as it was then"
         )
     if record["steps_of"] > 1 and record["motion"]["steps"]:
         yield (

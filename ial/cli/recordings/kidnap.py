@@ -7,7 +7,7 @@ import typer
 
 from ial.cli.shell.options import LaserPose, OdomTopic, Overwrite, RecordingPath, ScanTopics
 from ial.cli.shell.outputs import check_outputs
-from ial.cli.shell.terminal import say
+from ial.cli.shell.terminal import remark, say
 
 if TYPE_CHECKING:
     from ial.datasets.kidnapping import Kidnapping
@@ -39,6 +39,10 @@ def kidnap(
     reference = None if truth is None else read_tum(truth)
     kidnapped, moved = kidnap(Inputs(recording, None, scan_topic, odom_topic, laser_pose).source(), jumps, reference)
     count = convert(kidnapped, target)
+    for reason, skipped in kidnapped.skipped.items():
+        remark("skipped", f"{skipped} × {reason}", "yellow")
+    for reason, repaired in kidnapped.repaired.items():
+        remark("repaired", f"{repaired} × {reason}", "yellow")
     say(f"{count} scans written to {target}, {len(jumps)} {'kidnapping' if len(jumps) == 1 else 'kidnappings'}")
     if moved is not None:
         write_tum(moved, beside)

@@ -7,6 +7,7 @@ import pytest
 
 from ial.cli.lidar.config_file import resolve
 from ial.datasets.sample import sample_map_path
+from ial.lidar.configuration.config import LocalizerConfig
 
 
 @pytest.mark.slow
@@ -57,3 +58,10 @@ def test_a_reference_of_another_place_is_doubted(ial: Callable[..., Any]) -> Non
     far = ial("bounds", "run.mcap", "--map", sample_map_path(), "--truth", "far.tum", "--out", "far")
     assert "probably does not belong" in far.stderr
     assert "probably does not belong" not in fits.stderr
+    # No total that is tried explains beams that far away, and 0.3 m would be of no use.
+    assert "no bound that was tried leaves at most 10% of the beams bad in 95% of the scans (0.3 m, the largest, in 0.0%)" in far.stderr
+    assert "no bound that was tried" not in fits.stderr
+    assert "so that 99 % of these steps hold" in far.stdout
+    suggested, default = resolve(Path("far/config.yaml"), environment={}), LocalizerConfig()
+    assert suggested.max_outliers == default.max_outliers
+    assert suggested.bounds.map_error_m == default.bounds.map_error_m
