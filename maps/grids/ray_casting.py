@@ -79,17 +79,22 @@ def _walk(mask, u, v, du, dv, start, reach):  # type: ignore[no-untyped-def]
         distance = min(to_column, to_row)
         if not distance <= reach:
             return np.inf
-        hit = False
+        hit = np.inf  # where a cell beside the corner is touched: for a ray along its side, far from the other crossing
         if abs(to_column - to_row) <= corner:
-            hit = _occupied(mask, row, column + column_step) or _occupied(mask, row + row_step, column)
+            if _occupied(mask, row, column + column_step):
+                hit = to_column
+            if _occupied(mask, row + row_step, column):
+                hit = min(hit, to_row)
         if to_column <= to_row:
             column += column_step
             next_column += column_step
         if to_row <= to_column:
             row += row_step
             next_row += row_step
-        if hit or _occupied(mask, row, column):
-            return max(distance, 0.0)
+        if _occupied(mask, row, column):
+            hit = min(hit, distance)
+        if hit < np.inf:
+            return max(hit, 0.0) if hit <= reach else np.inf
         beyond_column = column >= mask.shape[1] if column_step > 0 else column < 0
         beyond_row = row >= mask.shape[0] if row_step > 0 else row < 0
         if beyond_column or beyond_row:

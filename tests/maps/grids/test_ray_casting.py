@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from ial.contractors import threads
@@ -41,6 +41,7 @@ def distance_to_cells(mask: np.ndarray, resolution: float, x: float, y: float, a
     v=st.floats(-4, 9) | st.integers(-1, 6).map(float),
     angle=st.floats(-7, 7) | st.integers(-8, 8).map(lambda i: i * math.pi / 4) | st.floats(-1e-8, 1e-8),
 )
+@example(8, 8, 0.05, 2.0, 3.2167053469134934e-112, -4.3432995622678494e-10)  # leaves the row of a cell that it touches farther on
 def test_against_all_cells(bits: int, sparse: int, resolution: float, u: float, v: float, angle: float) -> None:
     mask = np.array([(bits & sparse) >> i & 1 for i in range(35)], dtype=np.bool_).reshape(5, 7)
     x, y = u * resolution, v * resolution
