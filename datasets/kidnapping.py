@@ -1,11 +1,13 @@
 """Kidnapped recordings, made from real ones: the robot is elsewhere from one scan to the next, and its odometry does not tell."""
 
+import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ial.contractors.margins import ABOVE, ROUNDINGS
 from ial.datasets.in_memory import InMemoryRecording
 from ial.datasets.odometry import Odometry
 from ial.datasets.odometry_path import OdometryPath
@@ -120,8 +122,18 @@ class _Move:
     onto: Pose | None = None
 
     def odometry(self, odometry: Odometry) -> Odometry:
-        """Return a moved odometry; these numbers are what the new recording records."""
-        return odometry if self.onto is None else Odometry.of(self.onto @ odometry.pose, odometry.error_m, odometry.error_rad)
+        """Return a moved odometry; these numbers are what the new recording records, or are as near to it as its errors say."""
+        if self.onto is None:
+            return odometry
+        moved = Odometry.of(self.onto @ odometry.pose)
+        if odometry.exact:
+            return moved
+        # A square that is turned needs a larger one along the axes; and the middle is rounded, in fewer than 31 steps.
+        wider = abs(math.cos(self.onto.theta)) + abs(math.sin(self.onto.theta))
+        terms = abs(self.onto.x) + abs(self.onto.y) + abs(odometry.x) + abs(odometry.y)
+        error_m = ABOVE * (wider * odometry.error_m + ROUNDINGS * terms)
+        error_rad = ABOVE * (odometry.error_rad + ROUNDINGS * 4.0 * math.pi)
+        return replace(moved, error_m=error_m, error_rad=error_rad)
 
     def path(self, path: OdometryPath) -> OdometryPath:
         """Return a moved path."""

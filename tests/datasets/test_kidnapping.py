@@ -1,9 +1,11 @@
 import itertools
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import mpmath
 import numpy as np
 import pytest
 
@@ -67,7 +69,9 @@ def test_odometry_and_clock_tell_nothing_and_nothing_changes_before() -> None:
         )
         assert np.allclose([step.x, step.y, step.theta], [recorded.x, recorded.y, recorded.theta], atol=1e-12)
         assert later.stamp_ns - earlier.stamp_ns == before[number].stamp_ns - before[number - 1].stamp_ns
-        assert later.odometry.error_m == 0.01
+        turned = later.odometry.pose.theta - before[number].odometry.pose.theta
+        sides = abs(math.cos(turned)) + abs(math.sin(turned))
+        assert 0.01 * sides <= later.odometry.error_m * (1 + 1e-12) <= 0.01 * sides + 1e-9
 
 
 def test_the_reference_jumps_with_the_robot() -> None:
@@ -201,3 +205,25 @@ def test_the_localizer_is_lost_at_once_and_finds_the_new_place_in_the_same_step(
     assert there is not None
     assert any(each.x[0] <= there.x <= each.x[1] and each.y[0] <= there.y <= each.y[1] for each in estimates[11].hypotheses)
     assert estimates[-1].status == "localized"
+
+
+def test_what_interpolated_odometry_may_be_is_moved_with_it() -> None:
+    """Exactly: the corners of what it may be, turned and moved in 60 digits, lie within what is said after the jump."""
+    before, (after, _) = list(recording().readings()), kidnap(recording(), [Kidnapping(3, 7), Kidnapping(8, 1)])
+    readings = list(after.readings())
+    moved = [(before[number].odometry, reading.odometry) for number, reading in zip(numbers(readings), readings, strict=True)]
+    assert all(now.error_m > 0.0 for _, now in moved)
+    (first, there), *others = moved[6:]  # after the last jump, moved by one transform
+    with mpmath.workdps(60):
+
+        def angle(odometry: Odometry) -> mpmath.mpf:
+            return 2 * mpmath.atan2(odometry.z, odometry.w)
+
+        turn = angle(there) - angle(first)
+        c, s = mpmath.cos(turn), mpmath.sin(turn)
+        for old, now in others:
+            for dx, dy in itertools.product((-1, 1), repeat=2):
+                x = mpmath.mpf(old.x) + dx * mpmath.mpf(old.error_m) - mpmath.mpf(first.x)
+                y = mpmath.mpf(old.y) + dy * mpmath.mpf(old.error_m) - mpmath.mpf(first.y)
+                assert abs(there.x + c * x - s * y - now.x) <= now.error_m + mpmath.mpf(1e-12)
+                assert abs(there.y + s * x + c * y - now.y) <= now.error_m + mpmath.mpf(1e-12)
