@@ -4,6 +4,7 @@ import hashlib
 import io
 import json
 import zipfile
+import zlib
 from dataclasses import asdict, dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -86,11 +87,14 @@ class Checkpoint:
                 about = json.loads(content["about"].tobytes())
                 if about["form"] != _FORM or about["limited"] not in get_args(Limit):
                     raise ValueError("not this form")
+                boxes, unconfirmed, bad = Boxes(content["lower"], content["upper"]), content["unconfirmed"], content["bad"]
+                if unconfirmed.dtype != np.bool_ or bad.dtype != np.int16 or not unconfirmed.shape == bad.shape == (len(boxes),):
+                    raise ValueError("not this form")
                 poses = PoseSet(
-                    Boxes(content["lower"], content["upper"]),
-                    content["unconfirmed"],
+                    boxes,
+                    unconfirmed,
                     limited=about["limited"],
-                    bad=content["bad"],
+                    bad=bad,
                     outliers=int(about["outliers"]),
                     accepted=None if about["accepted"] is None else int(about["accepted"]),
                 ).checked()
@@ -102,7 +106,7 @@ class Checkpoint:
             return None
         except OSError as error:
             raise RecordingError(f"{path}: the state cannot be read ({error.strerror or error}); check the path") from None
-        except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile):
+        except (ValueError, KeyError, TypeError, EOFError, OverflowError, NotImplementedError, zipfile.BadZipFile, zlib.error):
             raise RecordingError(
                 f"{path}: no state that this version of ial has written, or a damaged one; give another file, or remove it to begin anew"
             ) from None

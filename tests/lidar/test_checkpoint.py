@@ -1,3 +1,4 @@
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -85,3 +86,24 @@ def test_a_state_that_cannot_be_written_is_an_error(recording: Recording, tmp_pa
     step, _ = next(localize(recording, localizer))
     with pytest.raises(OutputError, match="cannot be written"):
         Checkpoint(step.mark, localizer.poses, None, "x").save(tmp_path / "nowhere" / "state")
+
+
+@pytest.mark.parametrize("part", ["index", "unconfirmed", "bad", "fewer"])
+def test_a_state_with_wrong_numbers_is_refused(part: str, recording: Recording, tmp_path: Path) -> None:
+    localizer = Localizer(sample_grid())
+    step, _ = next(localize(recording, localizer))
+    path = tmp_path / "state"
+    Checkpoint(step.mark, localizer.poses, None, fingerprint(localizer)).save(path)
+    with np.load(path) as kept:
+        content = dict(kept)
+    if part == "index":
+        about = json.loads(content["about"].tobytes()) | {"index": float("inf")}
+        content["about"] = np.frombuffer(json.dumps(about).encode(), dtype=np.uint8)
+    elif part == "fewer":
+        content["unconfirmed"] = content["unconfirmed"][1:]
+    else:
+        content[part] = content[part].astype(np.float64)
+    with path.open("wb") as file:
+        np.savez(file, **content)
+    with pytest.raises(RecordingError, match="damaged"):
+        Checkpoint.load(path, localizer)
