@@ -1,21 +1,20 @@
 """`RealRobot`: a simulated bouncing robot with real geometry: not a cell map, but a disk or a point among walls.
 
 It is the truth that filters are tried against, so it shares no code with them: positions are whole multiples of 2^-112 m, directions are
-right to 100 bits, and headings are exact parts of a full turn.
+right to 100 bits, and headings are exact parts of a full turn. What touches is decided as if all were exact, see `contact_wall`.
 """
 
-import math
 import random
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
 from ial.bouncing.execution_bounds import ExecutionBounds
+from ial.bouncing.rays.contact_wall import TINY, ContactWall
 from ial.errors import ConfigError, MapError
 from ial.maps.polygons.direction import BITS, ONE, direction
 from ial.maps.polygons.environment import Environment
 
-_TINY = 1 << (BITS - 80)  # far above what is rounded off, far below what any filter could tell
 _PARTS = 1 << 20  # errors are drawn in such parts of their bounds
 _MOST_TRIES = 2_000
 _FULL_DEG = 360
@@ -44,8 +43,9 @@ class RealPose:
 class RealRobot:
     """A robot that drives straight on to a wall, turns, and drives on.
 
-    It bumps where it touches a wall that its heading leads into; a robot that still faces a wall after it has turned bumps again at once.
-    Along a wall that is exactly parallel it slides. The boundaries of all polygons of the environment are walls.
+    It bumps where it touches a boundary of a polygon that its heading leads into; a robot that still faces a wall after it has turned bumps
+    again at once. What it passes at exactly its radius it only grazes, and drives on: a parallel wall, along which it slides, or a corner.
+    A point that comes to a corner drives on if free space of the same polygon lies ahead of it.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ class RealRobot:
         self.bounce, self.step, self.radius, self.bounds = bounce_deg / _FULL_DEG, step_m, _whole(radius_m), bounds
         self._random = random.Random(seed)
         rings = [[(_whole(x), _whole(y)) for x, y in ring] for polygon in environment.polygons for ring in polygon.rings]
-        self._walls = [(ring[at - 1], ring[at]) for ring in rings for at in range(len(ring))]
+        self._walls = [ContactWall(*ring[at - 1], *ring[at], *ring[at - 2]) for ring in rings for at in range(len(ring))]
         if start is None:
             self.x, self.y = self._free_place(environment)
             self.turn = Fraction(self._random.randrange(1 << 40), 1 << 40)
@@ -116,41 +116,16 @@ class RealRobot:
 
     def _is_free(self, x: int, y: int) -> bool:
         """Return whether a robot there lies in the closed free space."""
-        inside, nearest = False, None
-        for (ax, ay), (bx, by) in self._walls:
-            ex, ey, px, py = bx - ax, by - ay, x - ax, y - ay
-            along = min(max(Fraction(px * ex + py * ey, ex * ex + ey * ey), Fraction(0)), Fraction(1))
-            square = (px - along * ex) ** 2 + (py - along * ey) ** 2
-            nearest = square if nearest is None else min(nearest, square)
-            if (ay > y) != (by > y):
-                inside ^= (ex * py - px * ey > 0) == (by > ay)
-        return nearest == 0 == self.radius or (inside and nearest is not None and nearest >= self.radius**2)
+        inside = sum(wall.is_crossed_leftwards_of(x, y) for wall in self._walls) % 2 == 1
+        nearest = min(wall.square_from(x, y) for wall in self._walls)
+        if self.radius:
+            return inside and nearest >= max(self.radius - TINY, 0) ** 2
+        return inside or nearest <= TINY**2
 
     def _distance(self, dx: int, dy: int) -> int:
-        """Return how far the robot can drive in a direction until it touches a wall that is in its way."""
-        x, y, radius = self.x, self.y, self.radius
-        distances = []
-        for (ax, ay), (bx, by) in self._walls:
-            ex, ey = bx - ax, by - ay
-            square = ex * ex + ey * ey
-            length = math.isqrt(square)
-            speed = (dx * ey - dy * ex) // length  # along the normal that points out of the free space
-            if speed > _TINY:
-                gap = ((ax - x) * ey - (ay - y) * ex) // length - radius
-                if gap >= -_TINY:
-                    far = max(gap, 0) * ONE // speed
-                    foot = ((x - ax + (far * dx >> BITS)) * ex + (y - ay + (far * dy >> BITS)) * ey) // length
-                    if -_TINY <= foot <= length + _TINY:
-                        distances.append(far)
-            if radius:
-                mx, my = x - ax, y - ay
-                approach = -(mx * dx + my * dy) >> BITS
-                rest = approach * approach - (mx * mx + my * my - radius * radius)
-                if approach > _TINY and rest >= 0:
-                    far = approach - math.isqrt(rest)
-                    if far >= -_TINY:
-                        distances.append(max(far, 0))
-        return min(distances)
+        """Return how far the robot can drive in a direction until it bumps."""
+        ways = [way(self.x, self.y, dx, dy, self.radius) for wall in self._walls for way in (wall.way_to_side, wall.way_to_corner)]
+        return min(way for way in ways if way is not None)
 
     def _drawn(self) -> Fraction:
         """Return a number from −1 to 1; the ends are as likely as all the rest, since bounds are broken there if anywhere."""
@@ -167,9 +142,9 @@ class RealRobot:
         driven, stops = 0, []
         while True:
             driven += _whole(self.step * (1 + self.bounds.step * self._drawn()))
-            if driven > distance:
+            if driven > distance + TINY:
                 break
-            stops.append(driven)
+            stops.append(min(driven, distance))
         wrong = self._random.randint(-self.bounds.count, self.bounds.count)
         stops = stops[: max(len(stops) + wrong, 0)] if wrong <= 0 else stops + wrong * [distance]
         for stop in stops:
