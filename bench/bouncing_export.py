@@ -41,7 +41,7 @@ unsigned observe(int bump) { now = room_step(now, bump); return room_colour(now)
 """
 TELLING = """
 unsigned many(void);
-unsigned many(void) { return room_size(now) + (unsigned)room_environments[now] + room_place_count(now); }
+unsigned many(void) { return room_size(now) + (unsigned)room_environment_mask(now) + room_place_count(now); }
 room_place_t place(unsigned char i);
 room_place_t place(unsigned char i) { return room_place(now, i); }
 unsigned heading(unsigned char i, unsigned char k);

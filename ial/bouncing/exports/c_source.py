@@ -1,10 +1,14 @@
 """`c_header`: a filter as one C99 header: constant tables, and inline functions that look up in them; no heap, no floating point."""
 
+from collections.abc import Mapping
+
+from ial.bouncing.exports.c_array import CArray
 from ial.bouncing.exports.c_tables import CTables
 from ial.bouncing.exports.exported_filter import ExportedFilter
 
 _STEPPING = """\
-/* What else keeps the tables in flash: __flash for avr-gcc (-std=gnu99), which copies them to RAM without it; nothing elsewhere. */
+/* What else keeps the tables in flash: nothing, but for avr-gcc (-std=gnu99), which copies them to RAM without it: __flash, or
+   __memx for a program of more than 64 KiB. */
 #ifndef {P}_FLASH
 #define {P}_FLASH
 #endif
@@ -19,18 +23,21 @@ typedef uint{state}_t {p}_state;
 
 _FUNCTIONS = """\
 /* The state after an observation: bump is not 0 if the step ended in one. */
-static inline {p}_state {p}_step({p}_state state, int bump) {{ return {p}_next[state][bump != 0]; }}
+static inline {p}_state {p}_step({p}_state state, int bump) {{ return {next_at}; }}
 
-static inline uint{colour}_t {p}_colour({p}_state state) {{ return {p}_colours[state]; }}
+static inline uint{colour}_t {p}_colour({p}_state state) {{ return {colour_at}; }}
 
 /* Whether the observations fit no place: the robot is elsewhere, was carried, or erred.
    {trap_says} */
 static inline int {p}_trapped({p}_state state) {{ return state == {P}_TRAP; }}
 
 /* Whether the robot knows as much as can ever be known. */
-static inline int {p}_localized({p}_state state) {{ return {p}_colours[state] > 1 && state != {P}_TRAP; }}
+static inline int {p}_localized({p}_state state) {{ return {colour_at} > 1 && state != {P}_TRAP; }}
 
-static inline uint{size}_t {p}_size({p}_state state) {{ return {p}_sizes[state]; }}
+static inline uint{size}_t {p}_size({p}_state state) {{ return {size_at}; }}
+
+/* In which environments it can be: bit i stands for environment i. */
+static inline uint{mask}_t {p}_environment_mask({p}_state state) {{ return {mask_at}; }}
 """
 
 _PLACES = """\
@@ -44,23 +51,23 @@ typedef struct {{
 
 /* How many places a state has: 0 outside of knowledge cycles, where they are not kept. */
 static inline uint{start}_t {p}_place_count({p}_state state) {{
-    return (uint{start}_t)({p}_place_starts[state + 1u] - {p}_place_starts[state]);
+    return (uint{start}_t)({start_after} - {start_at});
 }}
 
 /* Place i of a state, i from 0 to {p}_place_count(state) - 1. */
 static inline {p}_place_t {p}_place({p}_state state, uint{start}_t i) {{
-    const uint{place}_t at = {p}_places[{p}_place_starts[state] + i];
-    const {p}_place_t place = {{{p}_place_environments[at], {p}_place_rows[at], {p}_place_columns[at], {p}_place_classes[at]}};
+    const uint{place}_t at = {place_at};
+    const {p}_place_t place = {{{environment_at}, {row_at}, {column_at}, {heading_class_at}}};
     return place;
 }}
 
 static inline uint{class_start}_t {p}_heading_count({p}_place_t place) {{
-    return (uint{class_start}_t)({p}_class_starts[place.heading_class + 1u] - {p}_class_starts[place.heading_class]);
+    return (uint{class_start}_t)({class_after} - {class_at});
 }}
 
 /* Heading i of a place, i from 0 to {p}_heading_count(place) - 1. */
 static inline uint{heading}_t {p}_heading({p}_place_t place, uint{class_start}_t i) {{
-    return {p}_class_headings[{p}_class_starts[place.heading_class] + i];
+    return {heading_at};
 }}
 """
 
@@ -93,6 +100,11 @@ def c_header(exported: ExportedFilter, prefix: str = "bounce") -> str:
         "trap_says": "The next step starts anew." if restarts else "It stays so; start anew if the robot may have been carried.",
         "colour": arrays["colours"].width,
         "size": arrays["sizes"].width,
+        "mask": arrays["environments"].width,
+        "next_at": arrays["next"].element("state", "bump != 0"),
+        "colour_at": arrays["colours"].element("state"),
+        "size_at": arrays["sizes"].element("state"),
+        "mask_at": arrays["environments"].element("state"),
     }
     comment = "\n".join(f" * {line}" for line in ("A filter that localizes a bouncing robot, written by ial.", *exported.about()))
     memory = (
@@ -104,15 +116,33 @@ def c_header(exported: ExportedFilter, prefix: str = "bounce") -> str:
     parts += [each.declaration(f"{prefix.upper()}_FLASH") for each in arrays.values()]
     parts.append(_FUNCTIONS.format(**words))
     if exported.places is not None:
-        widths = {
-            "start": "place_starts",
-            "place": "places",
-            "environment": "place_environments",
-            "row": "place_rows",
-            "column": "place_columns",
-            "heading_class": "place_classes",
-            "class_start": "class_starts",
-            "heading": "class_headings",
-        }
-        parts.append(_PLACES.format(**words, **{word: arrays[name].width for word, name in widths.items()}))
+        parts.append(_PLACES.format(**words, **_place_words(arrays)))
     return "\n".join([*parts, "#endif\n"])
+
+
+def _place_words(arrays: Mapping[str, CArray]) -> dict[str, object]:
+    """Return the types and the elements of the tables of places."""
+    start, starts = arrays["place_starts"].element("state"), arrays["class_starts"]
+    first = starts.element("place.heading_class")
+    widths = {
+        "start": "place_starts",
+        "place": "places",
+        "environment": "place_environments",
+        "row": "place_rows",
+        "column": "place_columns",
+        "heading_class": "place_classes",
+        "class_start": "class_starts",
+        "heading": "class_headings",
+    }
+    return {word: arrays[name].width for word, name in widths.items()} | {
+        "start_at": start,
+        "start_after": arrays["place_starts"].element("(uint32_t)state + 1u"),
+        "place_at": arrays["places"].element(f"(uint32_t){start} + i"),
+        "environment_at": arrays["place_environments"].element("at"),
+        "row_at": arrays["place_rows"].element("at"),
+        "column_at": arrays["place_columns"].element("at"),
+        "heading_class_at": arrays["place_classes"].element("at"),
+        "class_at": first,
+        "class_after": starts.element("place.heading_class + 1u"),
+        "heading_at": arrays["class_headings"].element(f"{first} + i"),
+    }

@@ -8,11 +8,13 @@ import numpy as np
 import pytest
 
 from ial.bouncing.automata.table import FilterTable
+from ial.bouncing.exports import c_array
 from ial.bouncing.exports.c_source import c_header
 from ial.bouncing.exports.c_tables import CTables
 from ial.bouncing.exports.exported_filter import ExportedFilter
 from ial.bouncing.filters.bounce_filter import BounceFilter, Place
 from ial.errors import ConfigError
+from tests.bouncing.exports import avr
 from tests.bouncing.exports.rooms import own_streams, random_streams
 from tests.bouncing.worlds import drawn
 
@@ -122,7 +124,11 @@ def test_minimized_filters_have_the_same_colours(corner: BounceFilter, keep: str
 
 @pytest.mark.parametrize("compiler", COMPILERS)
 def test_places_are_those_of_the_filter(small: BounceFilter, compiler: str, tmp_path: Path) -> None:
-    program = compiled(compiler, c_header(ExportedFilter.of(small), "room"), PLACES, tmp_path)
+    check_places(small, compiled(compiler, c_header(ExportedFilter.of(small), "room"), PLACES, tmp_path))
+
+
+def check_places(small: BounceFilter, program: Path) -> None:
+    """Compare what a program prints with the places of a filter."""
     setting = small.setting
     shown: dict[int, list[Place]] = {}
     for line in subprocess.run([program], capture_output=True, text=True, check=True).stdout.splitlines():
@@ -185,19 +191,50 @@ def test_what_is_no_identifier_is_refused(corner: BounceFilter, prefix: str) -> 
         c_header(ExportedFilter.of(corner), prefix)
 
 
-def test_tables_can_be_kept_in_flash(corner: BounceFilter, tmp_path: Path) -> None:
-    if shutil.which("avr-gcc") is None:
-        pytest.skip("avr-gcc is not installed")
+@pytest.mark.parametrize("processor", ["atmega328p", "atmega2560"])
+def test_tables_can_be_kept_in_flash(corner: BounceFilter, processor: str, tmp_path: Path) -> None:
     exported = ExportedFilter.of(corner)
-    (tmp_path / "f.h").write_text(c_header(exported, "room"))
-    (tmp_path / "main.c").write_text(
+    program = (
         '#include "f.h"\nroom_state now;\n'
         "int main(void) { now = room_step(now, 1); return (int)room_colour(now) + room_place(now, 0).row + room_size(now); }\n"
     )
-    options = ["-std=gnu99", "-Wall", "-Wextra", "-Werror", "-Os", "-mmcu=atmega328p", "-DROOM_FLASH=__flash"]
-    subprocess.run(["avr-gcc", *options, "-c", "main.c", "-o", "main.o"], cwd=tmp_path, check=True)
-    listed = subprocess.run(["avr-size", "-A", "main.o"], cwd=tmp_path, capture_output=True, text=True, check=True).stdout
-    sections = {line.split()[0]: int(line.split()[1]) for line in listed.splitlines() if line.startswith(".")}
-    in_flash = sum(size for name, size in sections.items() if name.startswith(".progmem"))
+    used = avr.sections(avr.compiled_for(processor, "__flash", c_header(exported, "room"), program, tmp_path, "-c"))
+    in_flash = sum(size for name, size in used.items() if name.startswith(".progmem"))
     assert in_flash > CTables.of(exported, "room").stepping_bytes
-    assert sum(size for name, size in sections.items() if name.startswith((".data", ".rodata"))) == 0
+    assert sum(size for name, size in used.items() if name.startswith((".data", ".rodata"))) == 0
+
+
+def random_table(count: int) -> FilterTable:
+    """A filter of so many states, which lead anywhere."""
+    chooser = np.random.default_rng(count)
+    successors = np.vstack([chooser.integers(0, count, (count, 2)), [[count, count]]]).astype(np.int32)
+    colours = np.append(chooser.integers(1, 8, count), 9).astype(np.int32)
+    return FilterTable(successors, colours, chooser.integers(1, 300, count + 1), np.ones(count + 1, dtype=np.uint64))
+
+
+@pytest.mark.parametrize(("states", "processor", "flash"), [(9_000, "atmega2560", "__flash"), (24_000, "atmega2560", "__memx")])
+def test_tables_that_are_too_large_for_one_array_run_on_an_avr(states: int, processor: str, flash: str, tmp_path: Path) -> None:
+    table = random_table(states)
+    header = c_header(ExportedFilter(table, None, small_filter().setting), "room")
+    stream = np.random.default_rng(1).integers(0, 2, 300).tolist()
+    program = avr.compiled_for(processor, flash, header, avr.REPLAY % ",".join(map(str, stream)), tmp_path)
+    assert avr.sections(program)[".text"] > 2 * 2 * states
+    assert avr.run_on(processor, program) == expected(table, [stream])
+
+
+def test_tables_that_are_too_large_for_one_array_are_compiled_for_the_smallest_avr(tmp_path: Path) -> None:
+    header = c_header(ExportedFilter(random_table(9_000), None, small_filter().setting), "room")
+    avr.compiled_for("atmega328p", "__flash", header, avr.REPLAY % "0, 1", tmp_path, "-c")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("compiler", COMPILERS)
+def test_tables_in_pieces_tell_the_same(made: BounceFilter, compiler: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(c_array, "LARGEST_BYTES", 7)
+    exported = ExportedFilter.of(made)
+    header = c_header(exported, "room")
+    for name in ("next", "colours", "sizes", "environments", "place_starts", "places", "place_rows", "class_starts", "class_headings"):
+        assert f"room_{name}_at(" in header
+    streams = random_streams()
+    assert replayed(compiled(compiler, header, REPLAY, tmp_path), streams) == expected(exported.table, streams)
+    check_places(made, compiled(compiler, header, PLACES, tmp_path))
