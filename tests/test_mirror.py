@@ -58,7 +58,7 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
         "bouncing/cells/test_groups.py": ["graph"],
         "bouncing/cells/test_noisy_map.py": ["../execution_bounds"],
         "bouncing/exports/test_c_source.py": ["exported_filter"],
-        "bouncing/filters/test_bounce_filter.py": ["building", "cycle_places", "setting"],
+        "bouncing/filters/test_bounce_filter.py": ["cycle_places", "setting"],
         "bouncing/rays/test_ray_model.py": ["ray_set"],
         "contractors/combinators/test_combination.py": ["rows"],
         "contractors/expressions/test_constraint.py": ["../combinators/family"],

@@ -9,7 +9,7 @@ from ial.errors import ConfigError
 from ial.maps.polygons.raster import Raster, Rule
 
 
-def erode(raster: Raster, radius: Fraction, rule: Rule = "inside") -> Raster:
+def erode(raster: Raster, radius: Fraction, rule: Rule = "centre") -> Raster:
     """Return the cells in which a disk keeps clear of every closed cell that is not free and of everything outside of the raster.
 
     Parameters
@@ -19,7 +19,7 @@ def erode(raster: Raster, radius: Fraction, rule: Rule = "inside") -> Raster:
     radius
         The radius of the disk in metres; it may touch an obstacle.
     rule
-        ``inside``: the whole cell keeps the distance. ``centre``: its centre does.
+        ``centre``: the centre of the cell keeps the distance, as for a robot that bumps there. ``inside``: the whole cell does.
 
     Raises
     ------

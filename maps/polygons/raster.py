@@ -18,7 +18,7 @@ from ial.maps.polygons.environment import Environment
 from ial.maps.polygons.polygon import Polygon, common_denominator, scaled
 from ial.maps.polygons.ring import Point, edges
 
-Rule = Literal["inside", "centre"]
+Rule = Literal["centre", "inside"]
 MaskArray = npt.NDArray[np.bool_]
 
 
@@ -46,7 +46,7 @@ class Raster:
         return f"<Raster: {columns} × {rows} cells of {float(self.cell):g} m, {int(self.free.sum())} free>"
 
 
-def rasterize(environment: Environment, cell: Fraction, rule: Rule = "inside") -> Raster:
+def rasterize(environment: Environment, cell: Fraction, rule: Rule = "centre") -> Raster:
     """Return which cells are free; nothing is rounded.
 
     Parameters
@@ -56,8 +56,8 @@ def rasterize(environment: Environment, cell: Fraction, rule: Rule = "inside") -
     cell
         The width of a cell in metres.
     rule
-        ``inside``: a cell is free if all of it is free space, so a robot in a free cell meets no obstacle. ``centre``: if its centre is,
-        as in the paper.
+        ``centre``: a cell is free if its centre is, as in the paper. ``inside``: if all of it is free space, so that a robot in a free cell
+        meets no obstacle, wherever it stands there.
 
     Raises
     ------

@@ -117,7 +117,7 @@ class NoisyMap:
     @cached_property
     def _at_wall(self) -> npt.NDArray[np.bool_]:
         """Cells that may touch a wall: those that are not all free, and their neighbours."""
-        inside = np.pad(rasterize(self.environment, self.cell).free, 1)
+        inside = np.pad(rasterize(self.environment, self.cell, "inside").free, 1)
         near = ndimage.binary_dilation(~inside, np.ones((3, 3), dtype=np.bool_))[1:-1, 1:-1]
         return near & self.raster.free
 

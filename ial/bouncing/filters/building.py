@@ -18,7 +18,7 @@ from ial.maps.polygons.erosion import erode
 from ial.maps.polygons.raster import Raster, Rule, rasterize
 
 
-def free_cells(environment: Environment, cell: Fraction, radius: Fraction = Fraction(0), rule: Rule = "inside") -> Raster:
+def free_cells(environment: Environment, cell: Fraction, radius: Fraction = Fraction(0), rule: Rule = "centre") -> Raster:
     """Return the cells in which the centre of a disk robot can be.
 
     Raises
@@ -38,7 +38,7 @@ def free_cells(environment: Environment, cell: Fraction, radius: Fraction = Frac
 
 
 def all_free_cells(
-    environments: Mapping[str, Environment], cell: Fraction | None = None, radius: Fraction = Fraction(0), rule: Rule = "inside"
+    environments: Mapping[str, Environment], cell: Fraction | None = None, radius: Fraction = Fraction(0), rule: Rule = "centre"
 ) -> dict[str, Raster]:
     """Return the free cells of several environments by their names, all of one width.
 
@@ -77,7 +77,7 @@ def build_filter(
     headings: Headings,
     cell: Fraction | None = None,
     radius: Fraction = Fraction(0),
-    rule: Rule = "inside",
+    rule: Rule = "centre",
     corner: Corner = "segment",
     most_states: int = MOST_STATES,
 ) -> BounceFilter:

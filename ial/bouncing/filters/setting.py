@@ -38,7 +38,7 @@ class Setting:
     cell: Fraction
     headings: Headings
     radius: Fraction = Fraction(0)
-    rule: Rule = "inside"
+    rule: Rule = "centre"
     corner: Corner = "segment"
     merged: bool = True
 

@@ -34,7 +34,7 @@ def build(
     headings: HeadingCount = None,
     radius: Radius = "0",
     step: StepLength = None,
-    rule: FreeRule = "inside",
+    rule: FreeRule = "centre",
     corner: CornerPolicy = "segment",
     most_states: MostStates = 2**24,
     overwrite: Overwrite = False,

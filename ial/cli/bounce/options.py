@@ -22,7 +22,7 @@ HeadingCount = Annotated[
 ]
 Radius = Annotated[str, typer.Option("--radius", metavar="METRES", help="The radius of the robot; 0 for a point.")]
 StepLength = Annotated[str | None, typer.Option("--step", metavar="METRES", help="How far a step leads; the width of a cell if left out.")]
-FreeRule = Annotated[Literal["inside", "centre"], typer.Option("--rule", help="What of a cell must be free: all of it, or its centre.")]
+FreeRule = Annotated[Literal["centre", "inside"], typer.Option("--rule", help="What of a cell must be free: its centre, or all of it.")]
 CornerPolicy = Annotated[
     Literal["segment", "endpoint"], typer.Option("--corner", help="What of a step must be free: all of it, or the cell where it ends.")
 ]

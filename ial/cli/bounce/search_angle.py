@@ -35,7 +35,7 @@ def search_angle(
     cell: Cell = None,
     radius: Radius = "0",
     step: StepLength = None,
-    rule: FreeRule = "inside",
+    rule: FreeRule = "centre",
     corner: CornerPolicy = "segment",
     most_states: MostStates = 2**24,
     as_json: Json = False,

@@ -43,7 +43,7 @@ def show(
     headings: HeadingCount = None,
     radius: Radius = "0",
     step: StepLength = None,
-    rule: FreeRule = "inside",
+    rule: FreeRule = "centre",
     corner: CornerPolicy = "segment",
     most_states: MostStates = 2**24,
     overwrite: Overwrite = False,

@@ -44,11 +44,11 @@ def test_a_disk_may_touch_and_a_hair_more_is_too_much() -> None:
     free = np.ones((5, 5), dtype=np.bool_)
     assert erode(Raster(free), Fraction(5, 2), "centre").free.sum() == 1
     assert erode(Raster(free), Fraction(5, 2) + Fraction(1, 10**20), "centre").free.sum() == 0
-    assert erode(Raster(free), Fraction(2)).free.sum() == 1
+    assert erode(Raster(free), Fraction(2), "inside").free.sum() == 1
     diagonal = np.ones((9, 9), dtype=np.bool_)
     diagonal[0, 0] = False  # 3-4-5: the square's corner (1, 1) is exactly 5 from the corner (4, 5) of the cell in row 5, column 4
-    assert erode(Raster(np.pad(diagonal, ((0, 9), (0, 9)), constant_values=True)), Fraction(4)).free[5, 4]
-    assert not erode(Raster(np.pad(diagonal, ((0, 9), (0, 9)), constant_values=True)), Fraction(4)).free[3, 4]
+    assert erode(Raster(np.pad(diagonal, ((0, 9), (0, 9)), constant_values=True)), Fraction(4), "inside").free[5, 4]
+    assert not erode(Raster(np.pad(diagonal, ((0, 9), (0, 9)), constant_values=True)), Fraction(4), "inside").free[3, 4]
 
 
 def test_a_negative_radius_is_refused() -> None:

@@ -46,7 +46,7 @@ def test_a_wall_off_by_a_trillionth_is_off() -> None:
     almost = Fraction(4) - Fraction(1, 10**30)
     for height, rows in ((Fraction(4), 4), (almost, 3)):
         room = Polygon(((Fraction(0), Fraction(0)), (Fraction(4), Fraction(0)), (Fraction(4), height), (Fraction(0), height)))
-        assert int(rasterize(Environment((room,)), Fraction(1)).free.sum()) == 4 * rows
+        assert int(rasterize(Environment((room,)), Fraction(1), "inside").free.sum()) == 4 * rows
 
 
 def test_inside_is_within_centre_and_finer_cells_lose_less() -> None:
