@@ -11,23 +11,25 @@ from math import ceil, floor
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage
 
-from ial.bouncing.cells.cell_map import CellMap
 from ial.bouncing.cells.headings import Headings
 from ial.bouncing.cells.set_graph import SetGraph, rows_of
 from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.intervals.trigonometric import TWO_PI_LOWER, TWO_PI_UPPER, cos, sin
+from ial.contractors.margins import ROUNDINGS
+from ial.errors import ConfigError, MapError
 from ial.maps.polygons.environment import Environment
-from ial.maps.polygons.raster import Raster, cover, rasterize
+from ial.maps.polygons.raster import Raster, cover
+from ial.maps.polygons.wall_contact import WallContact
+from ial.maps.polygons.walls import Walls
 
 Arcs = tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]
 
 
 @dataclass(frozen=True, eq=False)
 class NoisyMap:
-    """The set-valued cell map of one environment, for a point robot.
+    """The set-valued cell map of one environment, for a point or a disk.
 
     Vertex number heading · cells + cell is a cell with the headings from half a distance before to half a distance after a heading. If
     the clock can count too many steps, further layers of as many vertices follow: robots that stand at a wall, with an unreported bump.
@@ -42,22 +44,45 @@ class NoisyMap:
         The headings, the bouncing angle and the step.
     bounds
         What the robot may do wrong.
+    radius
+        The radius of the robot in metres; 0 for a point.
+
+    Raises
+    ------
+    ConfigError
+        If the radius is negative.
+    MapError
+        If the robot fits nowhere, or there are too many walls.
     """
 
     environment: Environment
     cell: Fraction
     headings: Headings
     bounds: ExecutionBounds = field(default_factory=ExecutionBounds)
+    radius: Fraction = Fraction(0)
+
+    def __post_init__(self) -> None:
+        if self.radius < 0:
+            raise ConfigError(f"the radius of the robot is {float(self.radius):g} m; give 0 for a point, or a positive number")
+        if not self.raster.free.any():
+            raise MapError(f"a robot of radius {float(self.radius):g} m fits nowhere; use a smaller radius")
 
     @cached_property
     def raster(self) -> Raster:
-        """The cells that hold the free space."""
+        """The cells that hold all places of the centre of the robot."""
+        return Raster(self._covered.free & ~self._contact.overlapping, self._covered.cell, self._covered.x, self._covered.y)
+
+    @cached_property
+    def _covered(self) -> Raster:
         return cover(self.environment, self.cell)
 
     @cached_property
-    def exact(self) -> CellMap:
-        """The exact cell map, whose robot is put back to the centre; its arcs are among those of this one."""
-        return CellMap(rasterize(self.environment, self.cell), self.headings)
+    def _walls(self) -> Walls:
+        return Walls.of(self.environment)
+
+    @cached_property
+    def _contact(self) -> WallContact:
+        return WallContact.of(self._walls, self._covered, self.radius)
 
     @cached_property
     def graph(self) -> SetGraph:
@@ -81,9 +106,7 @@ class NoisyMap:
             still.append((begin[0], begin[1] + (layer + 1) * count))
             turned = self._turned((standing, standing))
             bumped.append((turned[0] + (layer + 1) * count, turned[1]))
-        still_exact, bumped_exact = self._exact_arcs
-        every = ([*still, still_exact], [*bumped, bumped_exact])
-        rows = [rows_of(*_together(arcs), total) for arcs in every]
+        rows = [rows_of(*_together(arcs), total) for arcs in (still, bumped)]
         return SetGraph((rows[0][0], rows[1][0]), (rows[0][1], rows[1][1]), count)
 
     def vertices(self, x_m: Fraction, y_m: Fraction, turn: Fraction) -> list[int]:
@@ -99,11 +122,6 @@ class NoisyMap:
             if self._numbers[r, c] >= 0
         ]
 
-    def vertices_of_exact(self, vertices: npt.ArrayLike) -> npt.NDArray[np.int64]:
-        """Return the vertices here of vertices of the exact cell map."""
-        rows, columns, headings = self.exact.configurations(vertices)
-        return headings * np.int64(self._cells) + self._numbers[rows, columns]
-
     @cached_property
     def _cells(self) -> int:
         return int(np.count_nonzero(self.raster.free))
@@ -114,12 +132,18 @@ class NoisyMap:
         numbers[self.raster.free] = np.arange(self._cells)
         return numbers
 
-    @cached_property
-    def _at_wall(self) -> npt.NDArray[np.bool_]:
-        """Cells that may touch a wall: those that are not all free, and their neighbours."""
-        inside = np.pad(rasterize(self.environment, self.cell, "inside").free, 1)
-        near = ndimage.binary_dilation(~inside, np.ones((3, 3), dtype=np.bool_))[1:-1, 1:-1]
-        return near & self.raster.free
+    def _bumping(self, heading: int) -> npt.NDArray[np.bool_]:
+        """Return the cells in which the robot can touch a wall that a heading of the interval leads into.
+
+        At a reflex corner it leads into one of the two walls if it leads into the corner, wherever the disk touches that.
+        """
+        outward = self._walls.angles - 0.5 * np.pi
+        off = np.abs(np.remainder(2.0 * np.pi * heading / self.headings.count - outward + np.pi, 2.0 * np.pi) - np.pi)
+        into = off <= np.pi / self.headings.count + 0.5 * np.pi + self._walls.slants + 16.0 * ROUNDINGS
+        cells = np.zeros(self.raster.free.shape, dtype=np.bool_)
+        for wall in np.flatnonzero(into):
+            cells.flat[self._contact.touching[wall]] = True
+        return cells & self.raster.free
 
     @cached_property
     def _moves(self) -> tuple[Arcs, Arcs]:
@@ -133,7 +157,7 @@ class NoisyMap:
             full = [wave * (shortest | longest) for wave in waves]
             some = [wave * (Interval(0) | longest) for wave in waves]
             moves.append(self._reached(heading, full, self.raster.free))
-            contacts.append(self._reached(heading, some, self._at_wall))
+            contacts.append(self._reached(heading, some, self._bumping(heading)))
         return _together(moves), _together(contacts)
 
     def _reached(self, heading: int, shift: list[Interval], wanted: npt.NDArray[np.bool_]) -> Arcs:
@@ -158,17 +182,6 @@ class NoisyMap:
         wrong = {each % self.headings.count for each in range(-spread, spread + 1)}
         turns = [self.headings.turn + each for each in sorted(wrong)]
         return _together([(arcs[0], (headings + turn) % self.headings.count * self._cells + cells) for turn in turns])
-
-    @cached_property
-    def _exact_arcs(self) -> tuple[Arcs, Arcs]:
-        """The arcs of the exact map, which with steps longer than a cell lets a robot turn before it is at the wall."""
-        none = np.empty(0, dtype=np.int64)
-        if not rasterize(self.environment, self.cell).free.any():
-            return (none, none), (none, none)  # every cell is cut by a wall: there is no exact map
-        graph = self.exact.graph
-        begins, ends = (self.vertices_of_exact(each) for each in (np.arange(len(graph)), graph.successors))
-        bumps = graph.labels
-        return (begins[~bumps], ends[~bumps]), (begins[bumps], ends[bumps])
 
 
 def _together(arcs: list[Arcs]) -> Arcs:

@@ -5,7 +5,6 @@ from itertools import islice
 import pytest
 
 from ial.bouncing.cells.headings import Headings
-from ial.bouncing.cells.model import BouncingModel
 from ial.bouncing.cells.noisy_map import NoisyMap
 from ial.bouncing.cells.noisy_model import NoisyModel
 from ial.bouncing.execution_bounds import ExecutionBounds
@@ -28,15 +27,16 @@ def noisy(bounds: ExecutionBounds = NONE, step: Fraction = Fraction(1), cell: Fr
     return NoisyMap(PILLAR, cell, Headings.of_angle(Fraction(90), 8, step), bounds)
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", range(60))
 def test_a_robot_with_real_geometry_is_never_lost(seed: int) -> None:
     chooser = random.Random(seed)
     environment = random_environment(seed)
+    radius = [Fraction(0), Fraction(1, 4), Fraction(1, 7)][seed % 3 if seed % 3 else chooser.randrange(3)]
     cell, count = chooser.choice([Fraction(1, 2), Fraction(1, 3), Fraction(7, 10)]), chooser.choice([8, 12, 36])
     headings = Headings(count, chooser.randrange(1, count), chooser.choice([Fraction(1), Fraction(3, 2), Fraction(3)]))
     bounds = [ExecutionBounds(), SOME, ExecutionBounds(Fraction(15), count=2), ExecutionBounds(step=Fraction(1, 4))][seed % 4]
-    made = NoisyMap(environment, cell, headings, bounds)
-    robot = RealRobot(environment, headings.bounce_deg, headings.step * cell, bounds=bounds, seed=seed)
+    made = NoisyMap(environment, cell, headings, bounds, radius)
+    robot = RealRobot(environment, headings.bounce_deg, headings.step * cell, radius, bounds, seed)
     running = SetMembershipFilter(NoisyModel(made.graph), "restart")
     for pose in islice(robot.run(), 60):
         assert running.update(None, pose.observation) is None
@@ -55,21 +55,6 @@ def test_a_broken_bound_is_noticed() -> None:
             states = model.step(states, None, pose.observation)
         lost += not set(made.vertices(pose.x_m, pose.y_m, pose.turn)) & set(states.tolist())
     assert lost > 0
-
-
-@pytest.mark.parametrize("step", [Fraction(1), Fraction(2), Fraction(7, 2)])
-def test_without_errors_it_contains_the_answers_of_the_exact_map(step: Fraction) -> None:
-    made = noisy(step=step)
-    exact, model = BouncingModel(made.exact.graph), NoisyModel(made.graph)
-    chooser = random.Random(1)
-    for _ in range(20):
-        vertex = chooser.randrange(len(made.exact.graph))
-        known, states = exact.universe(), model.universe()
-        for _ in range(30):
-            arc = int(made.exact.graph.arcs[vertex])
-            vertex = arc if arc >= 0 else ~arc
-            known, states = exact.step(known, None, int(arc < 0)), model.step(states, None, int(arc < 0))
-            assert set(made.vertices_of_exact(known).tolist()) <= set(states.tolist())
 
 
 @pytest.mark.parametrize("larger", [ExecutionBounds(Fraction(50)), ExecutionBounds(step=Fraction(1, 5)), ExecutionBounds(count=1), SOME])
