@@ -12,17 +12,12 @@ from math import ceil, floor
 import numpy as np
 import numpy.typing as npt
 
+from ial.bouncing.cells.cell_ways import CellWays
 from ial.bouncing.cells.headings import Headings
 from ial.bouncing.cells.set_graph import SetGraph, rows_of
 from ial.bouncing.execution_bounds import ExecutionBounds
-from ial.contractors.intervals.interval import Interval
-from ial.contractors.intervals.trigonometric import TWO_PI_LOWER, TWO_PI_UPPER, cos, sin
-from ial.contractors.margins import ROUNDINGS
-from ial.errors import ConfigError, MapError
 from ial.maps.polygons.environment import Environment
-from ial.maps.polygons.raster import Raster, cover
-from ial.maps.polygons.wall_contact import WallContact
-from ial.maps.polygons.walls import Walls
+from ial.maps.polygons.raster import Raster
 
 Arcs = tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]
 
@@ -46,13 +41,6 @@ class NoisyMap:
         What the robot may do wrong.
     radius
         The radius of the robot in metres; 0 for a point.
-
-    Raises
-    ------
-    ConfigError
-        If the radius is negative.
-    MapError
-        If the robot fits nowhere, or there are too many walls.
     """
 
     environment: Environment
@@ -61,28 +49,23 @@ class NoisyMap:
     bounds: ExecutionBounds = field(default_factory=ExecutionBounds)
     radius: Fraction = Fraction(0)
 
-    def __post_init__(self) -> None:
-        if self.radius < 0:
-            raise ConfigError(f"the radius of the robot is {float(self.radius):g} m; give 0 for a point, or a positive number")
-        if not self.raster.free.any():
-            raise MapError(f"a robot of radius {float(self.radius):g} m fits nowhere; use a smaller radius")
-
     @cached_property
+    def ways(self) -> CellWays:
+        """Where the robot can come to in a step, and where it can bump.
+
+        Raises
+        ------
+        ConfigError
+            If the radius is negative.
+        MapError
+            If the robot fits nowhere, or there are too many walls.
+        """
+        return CellWays.of(self.environment, self.cell, self.headings, self.bounds, self.radius)
+
+    @property
     def raster(self) -> Raster:
         """The cells that hold all places of the centre of the robot."""
-        return Raster(self._covered.free & ~self._contact.overlapping, self._covered.cell, self._covered.x, self._covered.y)
-
-    @cached_property
-    def _covered(self) -> Raster:
-        return cover(self.environment, self.cell)
-
-    @cached_property
-    def _walls(self) -> Walls:
-        return Walls.of(self.environment)
-
-    @cached_property
-    def _contact(self) -> WallContact:
-        return WallContact.of(self._walls, self._covered, self.radius)
+        return self.ways.raster
 
     @cached_property
     def graph(self) -> SetGraph:
@@ -90,6 +73,8 @@ class NoisyMap:
 
         Raises
         ------
+        ConfigError, MapError
+            As `ways`.
         FilterError
             If there would be too many.
         """
@@ -132,46 +117,25 @@ class NoisyMap:
         numbers[self.raster.free] = np.arange(self._cells)
         return numbers
 
-    def _bumping(self, heading: int) -> npt.NDArray[np.bool_]:
-        """Return the cells in which the robot can touch a wall that a heading of the interval leads into.
-
-        At a reflex corner it leads into one of the two walls if it leads into the corner, wherever the disk touches that.
-        """
-        outward = self._walls.angles - 0.5 * np.pi
-        off = np.abs(np.remainder(2.0 * np.pi * heading / self.headings.count - outward + np.pi, 2.0 * np.pi) - np.pi)
-        into = off <= np.pi / self.headings.count + 0.5 * np.pi + self._walls.slants + 16.0 * ROUNDINGS
-        cells = np.zeros(self.raster.free.shape, dtype=np.bool_)
-        for wall in np.flatnonzero(into):
-            cells.flat[self._contact.touching[wall]] = True
-        return cells & self.raster.free
-
     @cached_property
     def _moves(self) -> tuple[Arcs, Arcs]:
         """Where full steps can lead, and where the robot can touch a wall during a step; the heading stays."""
-        shortest, longest = (Interval(self.headings.step * (1 + part)) for part in (-self.bounds.step, self.bounds.step))
-        moves, contacts = [], []
-        for heading in range(self.headings.count):
-            turn = Interval(Fraction(2 * heading - 1, 2 * self.headings.count), Fraction(2 * heading + 1, 2 * self.headings.count))
-            angle = Interval(TWO_PI_LOWER, TWO_PI_UPPER) * turn
-            waves = [Interval.of_bounds(*wave(angle.lower, angle.upper)) for wave in (cos, sin)]
-            full = [wave * (shortest | longest) for wave in waves]
-            some = [wave * (Interval(0) | longest) for wave in waves]
-            moves.append(self._reached(heading, full, self.raster.free))
-            contacts.append(self._reached(heading, some, self._bumping(heading)))
+        free = np.ones_like(self.raster.free)
+        moves = [self._reached(heading, self.ways.moves[heading], free) for heading in range(self.headings.count)]
+        contacts = [
+            self._reached(heading, self.ways.contacts[heading], self.ways.bumping[heading]) for heading in range(self.headings.count)
+        ]
         return _together(moves), _together(contacts)
 
-    def _reached(self, heading: int, shift: list[Interval], wanted: npt.NDArray[np.bool_]) -> Arcs:
-        """Return the arcs from all cells to the wanted ones that a cell moved by the shifts meets; a step moves by cells of width 1."""
-        rows, columns = np.nonzero(self.raster.free)
-        across, up = ([floor(each.lower) + at for at in range(ceil(each.upper) + 1 - floor(each.lower))] for each in shift)
+    def _reached(self, heading: int, ways: npt.NDArray[np.int64], wanted: npt.NDArray[np.bool_]) -> Arcs:
+        """Return the arcs along ways to the wanted cells."""
         begins, ends = [], []
-        for dy in up:
-            for dx in across:
-                r, c = rows + dy, columns + dx
-                kept = (r >= 0) & (c >= 0) & (r < wanted.shape[0]) & (c < wanted.shape[1])
-                kept[kept] = wanted[r[kept], c[kept]]
-                begins.append(self._numbers[rows[kept], columns[kept]])
-                ends.append(self._numbers[r[kept], c[kept]])
+        for way in ways.tolist():
+            rows, columns = np.nonzero(self.ways.open[way])
+            across, up = self.ways.offsets[way].tolist()
+            kept = wanted[rows + up, columns + across]
+            begins.append(self._numbers[rows[kept], columns[kept]])
+            ends.append(self._numbers[rows[kept] + up, columns[kept] + across])
         base = heading * self._cells
         return np.concatenate(begins) + base, np.concatenate(ends) + base
 
