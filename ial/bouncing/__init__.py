@@ -32,6 +32,10 @@ if TYPE_CHECKING:
     from ial.bouncing.filters.cycle_places import CyclePlaces as CyclePlaces
     from ial.bouncing.filters.filter_file import read_filter as read_filter
     from ial.bouncing.filters.filter_file import write_filter as write_filter
+    from ial.bouncing.filters.goal import Goal as Goal
+    from ial.bouncing.filters.goal import Room as Room
+    from ial.bouncing.filters.robust_building import build_robust_filter as build_robust_filter
+    from ial.bouncing.filters.robust_filter import RobustFilter as RobustFilter
     from ial.bouncing.filters.setting import Setting as Setting
     from ial.bouncing.planning.angle_search import AngleSequence as AngleSequence
     from ial.bouncing.planning.angle_search import search_angles as search_angles
@@ -74,6 +78,9 @@ else:
             "rays.real_robot": ("RealPose", "RealRobot"),
             "automata.set_automaton": ("SetAutomaton", "determinize_sets"),
             "cells.set_graph": ("SetGraph",),
+            "filters.goal": ("Goal", "Room"),
+            "filters.robust_building": ("build_robust_filter",),
+            "filters.robust_filter": ("RobustFilter",),
             "filters.setting": ("Setting",),
             "stream": ("parse_stream",),
             "automata.table": ("FilterTable",),

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from ial.errors import ConfigError
 
@@ -36,3 +37,12 @@ class ExecutionBounds:
             raise ConfigError(f"the bound of the error of a step is {float(self.step):g} of its length; give 0 or more, and less than 1")
         if self.count < 0:
             raise ConfigError(f"the bound of the error of a count is {self.count} steps; give 0 or more")
+
+    def record(self) -> dict[str, Any]:
+        """Return plain values that JSON can hold; `of_record` gives the bounds back."""
+        return {"turn_deg": str(self.turn_deg), "step": str(self.step), "count": self.count}
+
+    @classmethod
+    def of_record(cls, record: dict[str, Any]) -> "ExecutionBounds":
+        """Return the bounds of a record."""
+        return cls(Fraction(record["turn_deg"]), Fraction(record["step"]), record["count"])

@@ -11,6 +11,7 @@ import numpy as np
 from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.filters.bounce_filter import BounceFilter, Place
 from ial.bouncing.filters.building import free_cells
+from ial.bouncing.filters.robust_filter import RobustFilter
 from ial.bouncing.rays.real_robot import RealPose, RealRobot
 from ial.maps.polygons.environment import Environment
 from ial.maps.polygons.outline import outlines
@@ -33,6 +34,9 @@ WORLDS = {
 }
 """Rooms on a lattice of 1 m, with reflex corners, pillars, and corridors as wide as a cell."""
 
+ARMS = Environment(outlines(drawn("#########. #########. .........."), Fraction(1)))
+"""A long corridor and a short one, 1 m wide, where a disk that nearly fills them has few ways to go."""
+
 
 def start_at_centre(made: BounceFilter, raster: Raster, chooser: random.Random) -> tuple[Fraction, Fraction, Fraction]:
     """Draw a pose at the centre of a free cell, in a heading of a filter."""
@@ -53,7 +57,7 @@ def robots(
         yield RealRobot(environment, angle, step, setting.radius, bounds, seed, start)
 
 
-def holds(made: BounceFilter, place: Place, pose: RealPose) -> bool:
+def holds(made: BounceFilter | RobustFilter, place: Place, pose: RealPose) -> bool:
     """Whether a place holds a pose: its cell, and headings up to half the distance between two."""
     half = made.setting.cell / 2
     apart = Fraction(_FULL_DEG, 2 * made.setting.headings.count)

@@ -1,5 +1,6 @@
 """`SetGraph`: where a robot can go from each vertex if it can go to several: successors as compressed rows, for each label."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -71,3 +72,35 @@ def rows_of(begins: npt.NDArray[np.int64], ends: npt.NDArray[np.int64], count: i
     starts = np.zeros(count + 1, dtype=np.int64)
     np.cumsum(np.bincount(row, minlength=count), out=starts[1:])
     return starts, to.astype(np.int32)
+
+
+def disjoint_set_union(graphs: Sequence[SetGraph]) -> tuple[SetGraph, npt.NDArray[np.int32]]:
+    """Return one graph with the vertices of several environments, and which start each of its vertices is at the place of.
+
+    The starts of all graphs come first, one graph after the other; what else they have follows in the same order.
+
+    Raises
+    ------
+    FilterError
+        If there is no graph.
+    """
+    if not graphs:
+        raise FilterError("no environment to be in; give at least one")
+    firsts, others = [graph.first for graph in graphs], [len(graph) - graph.first for graph in graphs]
+    bases, more = np.cumsum([0, *firsts]), np.cumsum([sum(firsts), *others])
+    renumbered = [
+        np.concatenate([np.arange(graph.first) + base, np.arange(other) + after]).astype(np.int32)
+        for graph, base, after, other in zip(graphs, bases, more, others, strict=False)
+    ]
+    starts, ends = [], []
+    for label in (0, 1):
+        cuts = [np.split(graph.ends[label], graph.starts[label][graph.first : graph.first + 1]) for graph in graphs]
+        ordered = [numbers[each[part]] for part in (0, 1) for numbers, each in zip(renumbered, cuts, strict=True)]
+        counts = [np.diff(graph.starts[label]) for graph in graphs]
+        sizes = [each[: graph.first] for graph, each in zip(graphs, counts, strict=True)]
+        sizes += [each[graph.first :] for graph, each in zip(graphs, counts, strict=True)]
+        starts.append(np.concatenate([[0], np.cumsum(np.concatenate(sizes))]).astype(np.int64))
+        ends.append(np.concatenate(ordered))
+    places = [np.arange(graph.first, dtype=np.int32) + np.int32(base) for graph, base in zip(graphs, bases, strict=False)]
+    places += [(np.arange(other) % graph.first + base).astype(np.int32) for graph, base, other in zip(graphs, bases, others, strict=False)]
+    return SetGraph((starts[0], starts[1]), (ends[0], ends[1]), sum(firsts)), np.concatenate(places)

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from ial.bouncing.exports.formats import export as export
     from ial.bouncing.exports.jflap import jff_text as jff_text
     from ial.bouncing.exports.jflap import read_jff as read_jff
-    from ial.bouncing.exports.state_places import StatePlaces as StatePlaces
     from ial.bouncing.exports.verilog import memory_image as memory_image
     from ial.bouncing.exports.verilog import verilog_module as verilog_module
 else:
@@ -36,7 +35,6 @@ else:
             "finite_automaton": ("FiniteAutomaton",),
             "jflap": ("jff_text", "read_jff"),
             "archive": ("plain_archive",),
-            "state_places": ("StatePlaces",),
             "verilog": ("memory_image", "verilog_module"),
         },
     )

@@ -12,6 +12,7 @@ from ial.bouncing.automata.table import FilterTable
 from ial.bouncing.cells.heading_classes import HeadingClasses
 from ial.bouncing.filters.cycle_places import CyclePlaces
 from ial.bouncing.filters.setting import Setting
+from ial.bouncing.filters.state_places import StatePlaces
 
 
 @dataclass(frozen=True)
@@ -71,6 +72,10 @@ class BounceFilter:
         """Return by how many columns and rows a step leads in a class of headings, as they are numbered in the places."""
         x, y = self._classes.offsets[heading_class]
         return int(x), int(y)
+
+    def state_places(self) -> StatePlaces:
+        """Return the places of all states, written out."""
+        return StatePlaces.of_cycles(self.table, self.places, self.setting)
 
     @property
     def trapped(self) -> int:

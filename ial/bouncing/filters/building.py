@@ -37,6 +37,22 @@ def free_cells(environment: Environment, cell: Fraction, radius: Fraction = Frac
     return raster
 
 
+def common_cell(environments: Mapping[str, Environment], cell: Fraction | None) -> Fraction:
+    """Return the width of a cell in metres: the given one, or that of the grids the environments come from.
+
+    Raises
+    ------
+    ConfigError
+        If there is no environment, or the width is not known.
+    """
+    if not environments:
+        raise ConfigError("no environment to be in; give at least one")
+    width = cell or next(iter(environments.values())).cell
+    if width is None or (cell is None and any(each.cell != width for each in environments.values())):
+        raise ConfigError("the width of a cell is not known, since the environments are no grids with cells of one width; give it")
+    return width
+
+
 def all_free_cells(
     environments: Mapping[str, Environment], cell: Fraction | None = None, radius: Fraction = Fraction(0), rule: Rule = "centre"
 ) -> dict[str, Raster]:
@@ -58,11 +74,7 @@ def all_free_cells(
     MapError
         If an environment has no free cell, or there would be too many.
     """
-    if not environments:
-        raise ConfigError("no environment to be in; give at least one")
-    width = cell or next(iter(environments.values())).cell
-    if width is None or (cell is None and any(each.cell != width for each in environments.values())):
-        raise ConfigError("the width of a cell is not known, since the environments are no grids with cells of one width; give it")
+    width = common_cell(environments, cell)
     rasters = {}
     for name, environment in environments.items():
         try:

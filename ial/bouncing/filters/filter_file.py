@@ -4,6 +4,7 @@ import hashlib
 import json
 import zipfile
 import zlib
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -11,23 +12,23 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.bouncing.automata.table import FilterTable
+from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.filters.bounce_filter import BounceFilter
 from ial.bouncing.filters.cycle_places import CyclePlaces
+from ial.bouncing.filters.goal import Goal
+from ial.bouncing.filters.robust_filter import RobustFilter
 from ial.bouncing.filters.setting import Setting
+from ial.bouncing.filters.state_places import StatePlaces
 from ial.errors import FilterError, IalError
 from ial.whole_file import whole_files
 
-_FORM, _VERSION = "ial bounce filter", 1
+_VERSION = 1
+_EXACT, _ROBUST = "ial bounce filter", "ial robust bounce filter"
 _TABLE = {"successors": np.int32, "colours": np.int32, "uncertainty": np.int64, "environments": np.uint64}
-_PLACES = {
-    "environment": np.int32,
-    "row": np.int32,
-    "column": np.int32,
-    "heading_class": np.int32,
-    "following": np.int32,
-    "anchors": np.int32,
-    "starts": np.int64,
-    "members": np.int32,
+_CELL = ("environment", "row", "column", "heading_class")
+_PLACES: dict[str, dict[str, type[np.integer]]] = {
+    _EXACT: dict.fromkeys((*_CELL, "following", "anchors", "members"), np.int32) | {"starts": np.int64},
+    _ROBUST: dict.fromkeys((*_CELL, "starts", "places", "class_starts", "class_headings"), np.int64),
 }
 Arrays = dict[str, npt.NDArray[Any]]
 
@@ -40,7 +41,7 @@ def _checksum(setting: dict[str, Any], arrays: Arrays) -> str:
     return digest.hexdigest()
 
 
-def write_filter(made: BounceFilter, path: str | Path) -> None:
+def write_filter(made: BounceFilter | RobustFilter, path: str | Path) -> None:
     """Write a filter; the file appears when it is complete.
 
     Raises
@@ -48,14 +49,16 @@ def write_filter(made: BounceFilter, path: str | Path) -> None:
     OutputError
         If it cannot be written.
     """
-    arrays = {name: getattr(made.table, name) for name in _TABLE} | {name: getattr(made.places, name) for name in _PLACES}
-    setting = made.setting.record()
-    about = {"form": _FORM, "version": _VERSION, "setting": setting, "sha256": _checksum(setting, arrays)}
+    form, setting = _EXACT, made.setting.record()
+    if isinstance(made, RobustFilter):
+        form, setting = _ROBUST, setting | {"bounds": made.bounds.record(), "goal": made.goal.record(), "growth": str(made.growth)}
+    arrays = {name: getattr(made.table, name) for name in _TABLE} | {name: getattr(made.places, name) for name in _PLACES[form]}
+    about = {"form": form, "version": _VERSION, "setting": setting, "sha256": _checksum(setting, arrays)}
     with whole_files(path, what="the filter") as (lent,), lent.open("wb") as file:
         np.savez_compressed(file, about=np.frombuffer(json.dumps(about).encode(), dtype=np.uint8), **arrays)
 
 
-def read_filter(path: str | Path) -> BounceFilter:
+def read_filter(path: str | Path) -> BounceFilter | RobustFilter:
     """Read a filter.
 
     Raises
@@ -68,21 +71,28 @@ def read_filter(path: str | Path) -> BounceFilter:
         with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
             about = json.loads(archive["about"].tobytes())
             form, version = about["form"], about["version"]
-            if form == _FORM and version == _VERSION:
-                arrays = {name: archive[name] for name in (*_TABLE, *_PLACES)}
+            if version == _VERSION and form in _PLACES:
+                arrays = {name: archive[name] for name in (*_TABLE, *_PLACES[form])}
     except OSError as error:
         raise FilterError(f"{path}: the filter cannot be read ({error.strerror or error}); check the path") from None
     except (ValueError, KeyError, TypeError, EOFError, AttributeError, NotImplementedError, zipfile.BadZipFile, zlib.error):
         raise FilterError(f"{path}: no filter that ial has written, or a truncated one; build it again with `ial bounce build`") from None
-    if form != _FORM or version != _VERSION:
+    if version != _VERSION or form not in _PLACES:
         raise FilterError(f"{path}: a filter of version {version}, and this ial reads {_VERSION}; build it again with `ial bounce build`")
     try:
-        if any(arrays[name].dtype != kind for name, kind in (_TABLE | _PLACES).items()):
+        if any(arrays[name].dtype != kind for name, kind in (_TABLE | _PLACES[form]).items()):
             raise ValueError("an array of another type")
         if _checksum(about["setting"], arrays) != about["sha256"]:
             raise ValueError("another checksum")
-        setting = Setting.of_record(about["setting"])
+        return _made(form, about["setting"], arrays)
     except (ValueError, KeyError, TypeError, ZeroDivisionError, IalError):
         raise FilterError(f"{path}: the filter is damaged: its checksum differs; build it again with `ial bounce build`") from None
-    table = FilterTable(**{name: arrays[name] for name in _TABLE})
-    return BounceFilter(table, CyclePlaces(**{name: arrays[name] for name in _PLACES}), setting)
+
+
+def _made(form: str, record: dict[str, Any], arrays: Arrays) -> BounceFilter | RobustFilter:
+    setting, table = Setting.of_record(record), FilterTable(**{name: arrays[name] for name in _TABLE})
+    places = {name: arrays[name] for name in _PLACES[form]}
+    if form == _EXACT:
+        return BounceFilter(table, CyclePlaces(**places), setting)
+    bounds, goal = ExecutionBounds.of_record(record["bounds"]), Goal.of_record(record["goal"])
+    return RobustFilter(table, StatePlaces(**places), setting, bounds, goal, Fraction(record["growth"]))

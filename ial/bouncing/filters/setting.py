@@ -77,7 +77,9 @@ class Setting:
         )
 
     @classmethod
-    def of_rasters(cls, rasters: dict[str, Raster], headings: Headings, radius: Fraction, rule: Rule, corner: Corner) -> "Setting":
+    def of_rasters(
+        cls, rasters: dict[str, Raster], headings: Headings, radius: Fraction, rule: Rule, corner: Corner, merged: bool = True
+    ) -> "Setting":
         """Return the setting of environments that were divided into cells of one width."""
         cells = list(rasters.values())
-        return cls(tuple(rasters), tuple((each.x, each.y) for each in cells), cells[0].cell, headings, radius, rule, corner)
+        return cls(tuple(rasters), tuple((each.x, each.y) for each in cells), cells[0].cell, headings, radius, rule, corner, merged)

@@ -1,4 +1,4 @@
-"""`StatePlaces`: where a robot can be in each state of a knowledge cycle, written out as plain arrays that other programs can read."""
+"""`StatePlaces`: where a robot can be in each state in which it is localized, as plain arrays that other programs can read."""
 
 from dataclasses import dataclass
 
@@ -6,15 +6,17 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.bouncing.automata.cycle_walk import walk_cycles
+from ial.bouncing.automata.table import FilterTable
 from ial.bouncing.cells.heading_classes import HeadingClasses
-from ial.bouncing.filters.bounce_filter import BounceFilter
+from ial.bouncing.filters.cycle_places import CyclePlaces
+from ial.bouncing.filters.setting import Setting
 
 IntArray = npt.NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
 class StatePlaces:
-    """Sets of places as compressed rows: those of state s are ``places[starts[s] : starts[s + 1]]``, none if it is on no knowledge cycle.
+    """Sets of places as compressed rows: those of state s are ``places[starts[s] : starts[s + 1]]``, none if the robot is not localized.
 
     Parameters
     ----------
@@ -37,22 +39,24 @@ class StatePlaces:
     class_starts: IntArray
     class_headings: IntArray
 
+    def of_state(self, state: int) -> IntArray:
+        """Return the numbers of the places of a state."""
+        return self.places[self.starts[state] : self.starts[state + 1]]
+
     @classmethod
-    def of(cls, made: BounceFilter) -> "StatePlaces":
-        """Return the places of a filter."""
-        kept = made.places
-        cycles, steps = walk_cycles(made.table.successors, kept.anchors, made.table.trap)
+    def of_cycles(cls, table: FilterTable, kept: CyclePlaces, setting: Setting) -> "StatePlaces":
+        """Return the places of the knowledge cycles of a filter."""
+        cycles, steps = walk_cycles(table.successors, kept.anchors, table.trap)
         rows: dict[int, npt.NDArray[np.int32]] = {}
         vertices = kept.members[:0]
         for state in np.lexsort((steps, cycles))[np.count_nonzero(cycles < 0) :].tolist():
             number = cycles[state]
             vertices = kept.members[kept.starts[number] : kept.starts[number + 1]] if steps[state] == 0 else kept.following[vertices]
             rows[state] = np.sort(vertices)
-        counts = np.zeros(len(made.table), dtype=np.int64)
+        counts = np.zeros(len(table), dtype=np.int64)
         for state, vertices in rows.items():
             counts[state] = len(vertices)
-        headings = made.setting.headings
-        classes = HeadingClasses.merged(headings) if made.setting.merged else HeadingClasses.single(headings)
+        classes = HeadingClasses.merged(setting.headings) if setting.merged else HeadingClasses.single(setting.headings)
         return cls(
             np.concatenate([[0], np.cumsum(counts)]),
             np.concatenate([rows[state] for state in sorted(rows)]).astype(np.int64),

@@ -5,9 +5,10 @@ from itertools import pairwise
 from typing import Any
 
 from ial.bouncing.filters.bounce_filter import BounceFilter
+from ial.bouncing.filters.robust_filter import RobustFilter
 
 
-def outcome(made: BounceFilter, states: Sequence[int]) -> dict[str, Any]:
+def outcome(made: BounceFilter | RobustFilter, states: Sequence[int]) -> dict[str, Any]:
     """Return what the states after the observations of a stream tell, as plain values that JSON can hold; observations count from 1."""
     table = made.table
     path = [0, *states]
@@ -19,6 +20,7 @@ def outcome(made: BounceFilter, states: Sequence[int]) -> dict[str, Any]:
         "rejected_at": [at for at, (before, now) in enumerate(pairwise(path), 1) if now == table.trap and before != table.trap],
         "localized_at": next((at for at, each in enumerate(path) if table.is_localized(each)), None),
         "localized": table.is_localized(state),
+        "room": made.room(state) if isinstance(made, RobustFilter) else None,
         "configurations": int(table.uncertainty[state]),
         "environments": [made.setting.names[number] for number in table.possible(state)],
         "places": [
@@ -43,7 +45,9 @@ def lines(record: Mapping[str, Any], most: int) -> Iterator[str]:
     if not count:
         yield f"after {record['observations']} observations: in none of the environments"
         return
-    known = f"localized (colour {record['colour']})" if record["localized"] else "not localized yet"
+    known = f"localized in {record['room']}" if record["room"] else f"localized (colour {record['colour']})"
+    if not record["localized"]:
+        known = "not localized yet" if record["localized_at"] is None else "not localized"
     yield (
         f"after {record['observations']} observations: {known}, {count} configuration{'s' * (count != 1)} in "
         f"{', '.join(record['environments'])}"

@@ -52,13 +52,17 @@ def show(
     from ial.bouncing.cells.headings import Headings
     from ial.bouncing.filters.building import all_free_cells, build_filter
     from ial.bouncing.filters.filter_file import read_filter
+    from ial.bouncing.filters.robust_filter import RobustFilter
     from ial.errors import ConfigError
 
     check_outputs([out], paths, overwrite)
     if late := next((path for path in paths[1:] if path.suffix == ".npz"), None):
         raise ConfigError(f"{late}: a filter comes first, and its environments after it: {late.name} ENV …")
     if paths[0].suffix == ".npz":
-        made = read_filter(paths[0])
+        read = read_filter(paths[0])
+        if isinstance(read, RobustFilter):
+            raise ConfigError(f"{paths[0]}: the filter of a robot with errors has no cycles and no basins; give one without errors")
+        made = read
         rasters = _walls(made, paths[1:])
     else:
         loaded = environments(paths)

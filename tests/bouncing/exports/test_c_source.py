@@ -13,6 +13,7 @@ from ial.bouncing.exports.c_source import c_header
 from ial.bouncing.exports.c_tables import CTables
 from ial.bouncing.exports.exported_filter import ExportedFilter
 from ial.bouncing.filters.bounce_filter import BounceFilter, Place
+from ial.bouncing.filters.robust_filter import RobustFilter
 from ial.errors import ConfigError
 from tests.bouncing.exports import avr
 from tests.bouncing.exports.rooms import own_streams, random_streams
@@ -106,6 +107,22 @@ def test_c_steps_as_python_does(small: BounceFilter, compiler: str, restart: boo
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("restart", [False, True])
+def test_a_robust_filter_steps_as_in_python(robust: RobustFilter, restart: bool, tmp_path: Path) -> None:
+    exported = ExportedFilter.of(robust, restart=restart)
+    header = c_header(exported, "room")
+    assert " * Colour 2: a ___.\n * Colour 3: b.\n" in header
+    assert "errs by at most 1 degrees in a turn, 1/100 of a step," in header
+    streams = random_streams(2000)
+    steps = replayed(compiled("gcc", header, REPLAY, tmp_path), streams)
+    assert steps == expected(exported.table, streams)
+    assert len({row[1] for row in steps}) >= 3, "localized in a room, not localized, and trapped"
+    index = re.search(r"room_place\(room_state state, (\w+) i\)", header)
+    assert index is not None
+    check_places(robust, compiled("gcc", header, PLACES.replace("(unsigned char)i", f"({index[1]})i"), tmp_path))
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("keep", ["colours", "localized"])
 def test_minimized_filters_have_the_same_colours(corner: BounceFilter, keep: str, tmp_path: Path) -> None:
     exported = ExportedFilter.of(corner, keep)  # type: ignore[arg-type]
@@ -127,7 +144,7 @@ def test_places_are_those_of_the_filter(small: BounceFilter, compiler: str, tmp_
     check_places(small, compiled(compiler, c_header(ExportedFilter.of(small), "room"), PLACES, tmp_path))
 
 
-def check_places(small: BounceFilter, program: Path) -> None:
+def check_places(small: BounceFilter | RobustFilter, program: Path) -> None:
     """Compare what a program prints with the places of a filter."""
     setting = small.setting
     shown: dict[int, list[Place]] = {}

@@ -1,13 +1,20 @@
 import io
 import json
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from ial.bouncing.cells.headings import Headings
+from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.filters.bounce_filter import BounceFilter
 from ial.bouncing.filters.filter_file import read_filter, write_filter
+from ial.bouncing.filters.goal import Goal, Room
+from ial.bouncing.filters.robust_building import build_robust_filter
+from ial.bouncing.filters.robust_filter import RobustFilter
 from ial.errors import FilterError, OutputError
+from tests.bouncing.rays.test_real_robot import ROOM
 
 
 @pytest.fixture
@@ -25,6 +32,19 @@ def test_a_filter_comes_back_as_it_was(made: BounceFilter, path: Path) -> None:
     state = int(np.flatnonzero(made.table.colours == 2)[-1])
     assert again.where(state) == made.where(state)
     assert list(path.parent.iterdir()) == [path]
+
+
+def test_a_robust_filter_comes_back_as_it_was(tmp_path: Path) -> None:
+    goal = Goal((Room("all", *map(Fraction, (0, 0, 4, 3))), Room("half", *map(Fraction, (0, 0, 2, 3)), "room")))
+    bounds = ExecutionBounds(Fraction(1, 3), Fraction(1, 7), 1)
+    made = build_robust_filter({"room": ROOM}, Headings.of_angle(Fraction(90), 8, Fraction(2)), Fraction(1), goal, bounds, most_states=50)
+    write_filter(made, tmp_path / "b.npz")
+    again = read_filter(tmp_path / "b.npz")
+    assert isinstance(again, RobustFilter)
+    assert (again.setting, again.bounds, again.goal, again.growth) == (made.setting, bounds, goal, made.growth)
+    for part in ("table", "places"):
+        for name, array in vars(getattr(made, part)).items():
+            assert np.array_equal(array, getattr(getattr(again, part), name)), name
 
 
 def test_a_truncated_file_is_refused(path: Path) -> None:
