@@ -42,6 +42,9 @@ if TYPE_CHECKING:
     from ial.bouncing.planning.information_sets import InformationSets as InformationSets
     from ial.bouncing.planning.phase import Phase as Phase
     from ial.bouncing.planning.trace_classes import trace_quotient as trace_quotient
+    from ial.bouncing.rays.piece_map import PieceMap as PieceMap
+    from ial.bouncing.rays.piece_model import PieceModel as PieceModel
+    from ial.bouncing.rays.piece_model import PieceSet as PieceSet
     from ial.bouncing.rays.ray_model import RayModel as RayModel
     from ial.bouncing.rays.ray_set import RaySet as RaySet
     from ial.bouncing.rays.real_robot import RealPose as RealPose
@@ -73,6 +76,8 @@ else:
             "cells.noisy_model": ("NoisyModel",),
             "automata.nondeterministic": ("NondeterministicAutomaton",),
             "planning.phase": ("Phase",),
+            "rays.piece_map": ("PieceMap",),
+            "rays.piece_model": ("PieceModel", "PieceSet"),
             "rays.ray_model": ("RayModel",),
             "rays.ray_set": ("RaySet",),
             "rays.real_robot": ("RealPose", "RealRobot"),

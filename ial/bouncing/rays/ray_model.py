@@ -157,8 +157,8 @@ class RayModel(Model[RaySet, None, int]):
     def _bumped(self, states: RaySet) -> RaySet:
         """Return the pieces of walls that the robot leaves from after a bump now."""
         check_rounding()
-        arrived = self._arrived(states.only(states.arriving))
-        hit = self._with_corners(RaySet.joined(arrived, self._shot(states.only(~states.arriving))))
+        arrived, leaving = self._arrived(states.only(states.arriving)), states.only(~states.arriving)
+        hit = self._with_corners(RaySet.joined(arrived, self._shot(leaving)[1]))[1]
         count = len(hit)
         turn = Boxes.column(np.full(count, self._turn[0]), np.full(count, self._turn[1]))
         turned = Boxes.column(hit.lower[:, 1], hit.upper[:, 1]) + turn
@@ -187,10 +187,16 @@ class RayModel(Model[RaySet, None, int]):
             inside &= (places.upper[:, side] >= known.lower) & (places.lower[:, side] <= known.upper)
         return states.only(inside)
 
-    def _shot(self, states: RaySet) -> RaySet:
+    def hits(self, states: RaySet) -> tuple[npt.NDArray[np.int64], RaySet]:
+        """Return which piece each robot has left from that bumps now, and the pieces of walls that they touch before they turn."""
+        begins, shot = self._shot(states)
+        rows, touched = self._with_corners(shot)
+        return begins[rows], touched
+
+    def _shot(self, states: RaySet) -> tuple[npt.NDArray[np.int64], RaySet]:
         table, links = self.walls.table
         least, most = self.ways(states)
-        begin, parts = 0, []
+        begin, parts, begins = 0, [], [np.empty(0, dtype=np.int64)]
         room = _ROOM * len(states) + len(self.walls) + 1
         while begin < len(states):
             rows, walls = np.empty(room, dtype=np.int64), np.empty(room, dtype=np.int32)
@@ -199,20 +205,25 @@ class RayModel(Model[RaySet, None, int]):
                 begin, states.walls, states.lower, states.upper, least, most, table, links, self.walls.margin, rows, walls, lower, upper
             )
             kept = states.only(rows[:count])
+            begins.append(rows[:count])
             parts.append(RaySet(walls[:count], lower[:count], upper[:count], kept.steps, kept.arriving, kept.reach))
-        return RaySet.joined(states.only(np.zeros(len(states), dtype=np.bool_)), *parts)
+        return np.concatenate(begins), RaySet.joined(states.only(np.zeros(len(states), dtype=np.bool_)), *parts)
 
-    def _with_corners(self, states: RaySet) -> RaySet:
-        """Return the set with corners that were touched on both their walls: from a reflex corner, either lets the robot go on."""
+    def _with_corners(self, states: RaySet) -> tuple[npt.NDArray[np.int64], RaySet]:
+        """Return the set with corners that were touched on both their walls: from a reflex corner, either lets the robot go on.
+
+        Before it, which piece each of its pieces was.
+        """
         _, links = self.walls.table
-        starting = states.only((states.lower[:, 0] <= 0.0) & (links[states.walls, 2] < 0))
-        ending = states.only((states.upper[:, 0] >= 1.0) & (links[links[states.walls, 0], 2] < 0))
+        starting = np.flatnonzero((states.lower[:, 0] <= 0.0) & (links[states.walls, 2] < 0))
+        ending = np.flatnonzero((states.upper[:, 0] >= 1.0) & (links[links[states.walls, 0], 2] < 0))
         sets = [states]
-        for part, there, link in ((starting, 1.0, 1), (ending, 0.0, 0)):
+        for rows, there, link in ((starting, 1.0, 1), (ending, 0.0, 0)):
+            part = states.only(rows)
             lower, upper = part.lower.copy(), part.upper.copy()
             lower[:, 0] = upper[:, 0] = there
             sets.append(RaySet(links[part.walls, link], lower, upper, part.steps, part.arriving, part.reach))
-        return RaySet.joined(*sets)
+        return np.concatenate([np.arange(len(states)), starting, ending]), RaySet.joined(*sets)
 
     def places(self, states: RaySet) -> Boxes:
         """Return where the robot can be now: boxes of x, y in the frame of the environment and the heading in radians.

@@ -1,0 +1,162 @@
+"""`PieceMap`: the ray mode on a fixed grid: from which piece of wall a robot can come to which, by the number of steps between two bumps.
+
+A set is then a row of bits, which a microcontroller can hold, and a bump takes one pass over a table of arcs. Pieces are fixed, so sets are
+coarser than those of `RayModel`, which cuts them anew at each bump.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from math import ceil, floor
+
+import numpy as np
+import numpy.typing as npt
+
+from ial.bouncing.execution_bounds import ExecutionBounds
+from ial.bouncing.rays.ray_model import RayModel
+from ial.bouncing.rays.ray_set import RaySet
+from ial.contractors.intervals.trigonometric import TWO_PI_LOWER, TWO_PI_UPPER
+from ial.contractors.margins import ABOVE, BELOW, ROUNDINGS
+from ial.errors import ConfigError, FilterError
+from ial.maps.polygons.environment import Environment
+from ial.maps.polygons.ray_shooting import reaches
+from ial.maps.polygons.walls import Walls
+
+IntArray = npt.NDArray[np.int32]
+
+MOST_PIECES = 2**20
+_FULL_DEG = 360
+
+
+@dataclass(frozen=True, eq=False)
+class PieceMap:
+    """Pieces of walls with headings. Piece number heading · parts + part is a part of a wall that robots leave in an interval of headings.
+
+    Parameters
+    ----------
+    walls
+        The walls.
+    parts
+        Into how many parts of equal width each wall is divided, int64 of shape (walls,); the parts of all walls are numbered through.
+    headings
+        How many intervals of headings there are; interval h is from h to h + 1 of so many parts of a full turn.
+    turns
+        By how many intervals a bump turns a robot at least and at most: from one interval it comes into all of these.
+    starts
+        Where the arcs of each piece begin, and their number at the end: int64 of shape (pieces + 1,).
+    ends
+        To which part each arc leads, int32.
+    least, most
+        After how many steps a robot can bump there, at least and at most, int32 each.
+    """
+
+    walls: Walls
+    parts: npt.NDArray[np.int64]
+    headings: int
+    turns: tuple[int, int]
+    starts: npt.NDArray[np.int64]
+    ends: IntArray
+    least: IntArray
+    most: IntArray
+
+    def __len__(self) -> int:
+        return len(self.starts) - 1
+
+    def __repr__(self) -> str:
+        return f"<PieceMap of {len(self)} pieces and {len(self.ends)} arcs>"
+
+    @classmethod
+    def of(
+        cls,
+        environment: Environment,
+        bounce_deg: Fraction,
+        step_m: Fraction,
+        bounds: ExecutionBounds,
+        part_m: Fraction,
+        headings: int,
+    ) -> "PieceMap":
+        """Return the map of a point robot in an environment.
+
+        Parameters
+        ----------
+        environment, bounce_deg, step_m, bounds
+            As for `RayModel`.
+        part_m
+            How wide a part of a wall is, at most, in metres.
+        headings
+            How many intervals of headings there are, at least 32.
+
+        Raises
+        ------
+        ConfigError
+            As `RayModel`, or if parts have no width, or there are too few headings.
+        FilterError
+            If there would be too many pieces.
+        MapError
+            If there are too many walls.
+        """
+        if part_m <= 0:
+            raise ConfigError(f"parts of walls are {float(part_m):g} m wide; give a width greater than 0")
+        if headings < 32:
+            raise ConfigError(f"{headings} intervals of headings are too wide to follow rays; give at least 32")
+        model = RayModel(environment, bounce_deg, step_m, bounds)
+        parts = np.ceil(model.walls.lengths / float(part_m)).astype(np.int64)
+        if parts.sum() * headings > MOST_PIECES:
+            raise FilterError(f"there would be {parts.sum() * headings} pieces; use fewer headings or wider parts, at most {MOST_PIECES}")
+        part_deg = Fraction(_FULL_DEG, headings)
+        turns = floor((bounce_deg - bounds.turn_deg) / part_deg), ceil((bounce_deg + bounds.turn_deg) / part_deg)
+        # A leg is not longer than the environment, so after so many steps no robot is still on its way.
+        longest = ceil(Fraction(model.walls.scale) / (step_m * (1 - bounds.step))) + bounds.count + 1
+        begins, ends, counts = _hits(model, _pieces(parts, headings), parts, longest)
+        keys, at = np.unique(begins * parts.sum() + ends, return_inverse=True)
+        least, most = np.full(len(keys), np.iinfo(np.int32).max, dtype=np.int32), np.zeros(len(keys), dtype=np.int32)
+        np.minimum.at(least, at.reshape(-1), counts)
+        np.maximum.at(most, at.reshape(-1), counts)
+        pieces, to = np.divmod(keys, parts.sum())
+        starts = np.zeros(int(parts.sum()) * headings + 1, dtype=np.int64)
+        np.cumsum(np.bincount(pieces, minlength=len(starts) - 1), out=starts[1:])
+        return cls(model.walls, parts, headings, turns, starts, to.astype(np.int32), least, most)
+
+    @cached_property
+    def longest(self) -> IntArray:
+        """After how many steps a robot from each piece has bumped at the latest, int32 of shape (pieces,); −1 if it cannot leave."""
+        longest = np.full(len(self), -1, dtype=np.int32)
+        np.maximum.at(longest, np.repeat(np.arange(len(self)), np.diff(self.starts)), self.most)
+        return longest
+
+
+def _pieces(parts: npt.NDArray[np.int64], headings: int) -> RaySet:
+    """Return all pieces; each holds its part of the wall and its headings, rounded outward."""
+    walls = np.repeat(np.arange(len(parts), dtype=np.int32), parts)
+    part = np.arange(len(walls)) - np.repeat(np.cumsum(parts) - parts, parts)
+    first, last = part / parts[walls] * BELOW, np.minimum((part + 1) / parts[walls] * ABOVE, 1.0)
+    heading = np.repeat(np.arange(headings), len(walls))
+    low, high = heading / headings * TWO_PI_LOWER * BELOW, (heading + 1) / headings * TWO_PI_UPPER * ABOVE
+    count = len(heading)
+    lower, upper = np.stack([np.tile(first, headings), low], axis=1), np.stack([np.tile(last, headings), high], axis=1)
+    none = np.zeros(count, dtype=np.int32)
+    return RaySet(np.tile(walls, headings), lower, upper, none, none > 0, np.full(count, np.inf))
+
+
+def _hits(model: RayModel, pieces: RaySet, parts: npt.NDArray[np.int64], longest: int) -> tuple[npt.NDArray[np.int64], ...]:
+    """Return which parts robots can touch at a bump that left from which piece, and after how many steps; repeats are possible."""
+    first_part = np.cumsum(parts) - parts
+    table, links = model.walls.table
+    reach = reaches(pieces.walls, pieces.lower, pieces.upper, pieces.arriving, table, links, model.walls.margin)
+    begins, ends, counts = [], [], []
+    for count in range(longest):
+        steps = np.full(len(pieces), count, dtype=np.int32)
+        states = RaySet(pieces.walls, pieces.lower, pieces.upper, steps, pieces.arriving, reach)
+        leaving = np.flatnonzero(reach >= model.ways(states)[0])
+        pieces_of, hit = model.hits(states.only(leaving))
+        per = parts[hit.walls].astype(np.float64)
+        # The ends are parts of 1: rounding them and the products changes the product by less than this part of the number of parts.
+        first = np.clip(np.floor(hit.lower[:, 0] * per - ROUNDINGS * per), 0.0, per - 1.0).astype(np.int64)
+        last = np.clip(np.ceil(hit.upper[:, 0] * per + ROUNDINGS * per) - 1.0, first, per - 1.0).astype(np.int64)
+        many = last - first + 1
+        rows = np.repeat(np.arange(len(many)), many)
+        further = np.arange(len(rows)) - np.repeat(np.cumsum(many) - many, many)
+        begins.append(leaving[pieces_of[rows]])
+        ends.append(first_part[hit.walls[rows]] + first[rows] + further)
+        counts.append(np.full(len(rows), count, dtype=np.int64))
+    return np.concatenate(begins), np.concatenate(ends), np.concatenate(counts)
