@@ -124,6 +124,24 @@ class PieceMap:
         np.maximum.at(longest, np.repeat(np.arange(len(self)), np.diff(self.starts)), self.most)
         return longest
 
+    @cached_property
+    def boxes_mm(self) -> npt.NDArray[np.int64]:
+        """Rectangles that hold the parts of walls: least x and y, greatest x and y, int64 of shape (parts, 4).
+
+        They are in millimetres, counted from the origin of the walls and rounded outward, but not below 0, where no wall is.
+        """
+        walls = self.walls
+        wall = np.repeat(np.arange(len(walls)), self.parts)
+        part = np.arange(len(wall)) - np.repeat(np.cumsum(self.parts) - self.parts, self.parts)
+        sides = []
+        for low in (walls.x, walls.y):
+            ends = [low[wall] + (part + more) / self.parts[wall] * (low[walls.after] - low)[wall] for more in (0, 1)]
+            # The margin is for far more roundings than those of an end and of its product with 1000.
+            least, most = np.minimum(*ends) - 2.0 * walls.margin, np.maximum(*ends) + 2.0 * walls.margin
+            sides.append((np.maximum(np.floor(1000.0 * least), 0.0), np.ceil(1000.0 * most)))
+        (x0, x1), (y0, y1) = sides
+        return np.stack([x0, y0, x1, y1], axis=1).astype(np.int64)
+
 
 def _pieces(parts: npt.NDArray[np.int64], headings: int) -> RaySet:
     """Return all pieces; each holds its part of the wall and its headings, rounded outward."""
