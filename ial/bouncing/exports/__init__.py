@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from ial.bouncing.exports.formats import export as export
     from ial.bouncing.exports.jflap import jff_text as jff_text
     from ial.bouncing.exports.jflap import read_jff as read_jff
+    from ial.bouncing.exports.piece_source import PieceTables as PieceTables
+    from ial.bouncing.exports.piece_source import c_piece_header as c_piece_header
     from ial.bouncing.exports.verilog import memory_image as memory_image
     from ial.bouncing.exports.verilog import verilog_module as verilog_module
 else:
@@ -35,6 +37,7 @@ else:
             "finite_automaton": ("FiniteAutomaton",),
             "jflap": ("jff_text", "read_jff"),
             "archive": ("plain_archive",),
+            "piece_source": ("PieceTables", "c_piece_header"),
             "verilog": ("memory_image", "verilog_module"),
         },
     )

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.rays.ray_model import RayModel
 from ial.bouncing.rays.ray_set import RaySet
+from ial.contractors.intervals.interval import Interval
 from ial.contractors.intervals.trigonometric import TWO_PI_LOWER, TWO_PI_UPPER
 from ial.contractors.margins import ABOVE, BELOW, ROUNDINGS
 from ial.errors import ConfigError, FilterError
@@ -141,6 +142,17 @@ class PieceMap:
             sides.append((np.maximum(np.floor(1000.0 * least), 0.0), np.ceil(1000.0 * most)))
         (x0, x1), (y0, y1) = sides
         return np.stack([x0, y0, x1, y1], axis=1).astype(np.int64)
+
+    def bounds_m(self, pieces: npt.ArrayLike) -> tuple[float, float, float, float]:
+        """Return a rectangle that holds all robots on some pieces: least x and y, greatest x and y, in the frame of the environment.
+
+        It is rounded outward to whole millimetres from the origin of the walls, and those to doubles.
+        """
+        boxes = self.boxes_mm[np.asarray(pieces) % len(self.boxes_mm)]
+        x, y = self.walls.origin
+        sides = zip((*boxes[:, :2].min(axis=0).tolist(), *boxes[:, 2:].max(axis=0).tolist()), (x, y, x, y), strict=True)
+        x0, y0, x1, y1 = (Interval(Fraction(mm, 1000) + corner) for mm, corner in sides)
+        return x0.lower, y0.lower, x1.upper, y1.upper
 
 
 def _pieces(parts: npt.NDArray[np.int64], headings: int) -> RaySet:

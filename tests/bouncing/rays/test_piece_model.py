@@ -1,5 +1,6 @@
 from fractions import Fraction
 
+import numpy as np
 import pytest
 
 from ial.bouncing.execution_bounds import ExecutionBounds
@@ -53,3 +54,14 @@ def test_a_union_holds_both_and_a_prediction_every_outcome() -> None:
     pairs = {(piece, steps) for each in (still, bumped) for piece, steps in zip(each.pieces, each.steps, strict=True)}
     assert set(zip(predicted.pieces.tolist(), predicted.steps.tolist(), strict=True)) == pairs
     assert len(predicted) == len(pairs)
+
+
+def test_a_leg_is_the_same_as_its_steps() -> None:
+    model = PieceModel(PieceMap.of(WORLDS["L"], Fraction(100), Fraction(1, 4), SOME, Fraction(1, 2), 36))
+    stepped = legs = model.universe()
+    for count in (7, 0, 5, 12, 3):
+        for reading in [0] * count + [1]:
+            stepped = model.step(stepped, None, reading)
+        legs = model.leg(legs, count)
+        assert np.array_equal(stepped.pieces, legs.pieces)
+        assert not stepped.steps.any()
