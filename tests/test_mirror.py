@@ -96,7 +96,16 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
         "cli/lidar/test_warm.py": ["../../lidar/warming"],
         "cli/lidar/test_where.py": ["where_report"],
         "cli/shell/test_outputs.py": ["../lidar/job", "out_folder"],
-        "cli/test_bounce.py": ["bounce/build", "bounce/options", "bounce/outcome", "bounce/report", "bounce/run", "bounce/simulate"],
+        "cli/test_bounce.py": [
+            "bounce/build",
+            "bounce/options",
+            "bounce/outcome",
+            "bounce/piece_outcome",
+            "bounce/piece_report",
+            "bounce/report",
+            "bounce/run",
+            "bounce/simulate",
+        ],
         "cli/test_main.py": ["entry", "shell/inputs", "shell/options", "shell/terminal"],
     },
     "run once, by hand; what it made is tested": {

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from ial.bouncing.filters.bounce_filter import BounceFilter
 from ial.bouncing.filters.filter_file import read_filter
 from ial.cli.main import app
 from ial.maps.grids.map_file import write_map
@@ -35,7 +36,9 @@ def built(ial: Cli, hall: Path) -> Path:
 
 def stream_of(path: Path, start: int = 3, count: int = 60) -> str:
     """Observations that never lead to the trap."""
-    table, state, letters = read_filter(path).table, 0, ""
+    made = read_filter(path)
+    assert isinstance(made, BounceFilter)
+    table, state, letters = made.table, 0, ""
     for at in range(count):
         options = [letter for letter in (0, 1) if table.step(state, letter) != table.trap]
         letter = options[(at + start) % len(options)]
@@ -194,6 +197,97 @@ def test_simulate_writes_a_stream_that_run_reads(ial: Cli, hall: Path, built: Pa
     assert "after 30 observations" in ial("bounce", "run", built, "--file", "stream.txt").stdout
     assert ial(*command, "--overwrite").exit_code == 0
     assert Path("stream.txt").read_text() == stream
+
+
+REAL = ("--angle", 100, "--turn-error", 2, "--step-error", "0.02", "--count-error", 1)
+ROOMS = ("--room", "left=-1,-1,5,8", "--room", "right=5,-1,10,5")
+
+
+@pytest.fixture
+def sets(ial: Cli, hall: Path) -> Path:
+    result = ial("bounce", "build", hall, *REAL, *ROOMS, "--out", "sets.npz")
+    assert result.exit_code == 0
+    assert "hall: 10944 pieces (152 parts of walls, 72 headings), 42182 arcs" in result.stdout
+    assert "turns of 100° ± 2°, steps of 0.25 m ± 2 %, counts ± 1" in result.stdout
+    assert "localized is a robot whose last bump was in left or right" in result.stdout
+    assert re.search(r"as a C header: 1\d\d,\d\d\d bytes of flash, 2,740 of RAM", result.stdout)
+    return Path("sets.npz")
+
+
+@pytest.mark.slow
+def test_a_robot_with_errors_is_localized_in_a_room_from_two_commands(ial: Cli, hall: Path, sets: Path) -> None:
+    noise = ("--noise-turn", 2, "--noise-step", "0.02", "--noise-count", 1, "--step", "1/4", "--angle", 100)
+    told = set()
+    for seed in range(6):
+        more = ("--seed", seed, "--steps", 300, "--out", "s.txt", "--truth", "t.csv", "--overwrite")
+        assert ial("bounce", "simulate", hall, *noise, *more).exit_code == 0
+        record = json.loads(ial("bounce", "run", sets, "--file", "s.txt", "--json").stdout)
+        assert record["rejected_at"] == []
+        assert record["observations"] == 300
+        poses = [line.split(",") for line in Path("t.csv").read_text().splitlines()[1:]]
+        x, y = next((float(pose[1]), float(pose[2])) for pose in reversed(poses) if pose[0] == "1")
+        box = record["last_bump_m"]
+        assert box["x0"] <= x <= box["x1"]
+        assert box["y0"] <= y <= box["y1"]
+        if record["localized"]:
+            assert (x <= 5) if record["room"] == "left" else (x >= 5)
+            told.add(record["room"])
+            words = ial("bounce", "run", sets, "--file", "s.txt").stdout
+            assert f"after 300 observations: localized in {record['room']}, {record['pieces']} pieces of walls in hall" in words
+            assert "the last bump was at x " in words
+    assert told == {"left", "right"}
+
+
+def test_run_with_a_set_filter_says_what_it_does_not_know(ial: Cli, sets: Path) -> None:
+    result = ial("bounce", "run", sets, "--stream", "000")
+    assert (result.exit_code, result.stdout) == (3, "after 3 observations: no bump yet\n")
+    result = ial("bounce", "run", sets, "--stream", "0001")
+    assert result.exit_code == 3
+    assert "after 4 observations: not localized, 10944 pieces of walls in hall" in result.stdout
+    result = ial("bounce", "run", sets, "--stream", "0" * 60)
+    assert result.exit_code == 3
+    assert "rejected at observation 48: no place in the environment fits" in result.stdout
+    assert "after 60 observations: not in the environment" in result.stdout
+    assert "no bump yet" in ial("bounce", "run", sets, "--stream", "0" * 60, "--restart").stdout
+    result = ial("bounce", "run", sets, "--stream", "0" * 60, "--world", "closed")
+    assert result.exit_code == 2
+    assert "observation 48 of the stream fits no place" in result.stderr
+
+
+def test_a_set_filter_is_exported_as_c_alone(ial: Cli, sets: Path) -> None:
+    result = ial("bounce", "export", sets, "--prefix", "hall", "--out", "sets.h")
+    assert result.exit_code == 0
+    assert "10944 pieces of walls in sets.h" in result.stdout
+    assert "static inline int hall_update(hall_filter *filter, int bump)" in Path("sets.h").read_text()
+    for more in (("--out", "sets.v"), ("--out", "b.h", "--restart"), ("--out", "b.h", "--minimize", "colours")):
+        result = ial("bounce", "export", sets, *more)
+        assert result.exit_code == 2
+        assert "give --format c, without --minimize and --restart" in result.stderr
+    result = ial("bounce", "show", sets, "--out", "a.png")
+    assert result.exit_code == 2
+    assert "no cycles and no basins" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("more", "message"),
+    [
+        (("--rays", "--radius", "1/2"), "for a disk the polygons in which its centre can be"),
+        (("--turn-error", 1, "--cell", 1), "leave out --cell"),
+        (("--rays", "--room", "kitchen"), "NAME=X0,Y0,X1,Y1"),
+        (("--rays", "--room", "a=0,0,1,x"), "--room"),
+        (("--rays", "--room", "a=0,0,1,1", "--within", 1), "either of the two"),
+        (("--rays", "--within", 0), "within 0 m"),
+        (("--within", 1), "--room and --within are for robots with real geometry"),
+        (("--turn-error", -1), "error of a turn is -1°"),
+        (("--rays", "--headings", 8), "8 intervals of headings are too wide"),
+        (("--rays", "--part", 0), "0 m wide"),
+    ],
+)
+def test_a_set_filter_that_cannot_be_meant_is_refused(ial: Cli, hall: Path, more: tuple[object, ...], message: str) -> None:
+    result = ial("bounce", "build", hall, *more, "--out", "x.npz")
+    assert result.exit_code == 2
+    assert message in " ".join(result.stderr.split())
+    assert not Path("x.npz").exists()
 
 
 def test_simulate_starts_where_it_is_told(ial: Cli, hall: Path) -> None:

@@ -11,7 +11,9 @@ from ial.bouncing.exports.dot import dot_text
 from ial.bouncing.exports.exported_filter import ExportedFilter
 from ial.bouncing.exports.finite_automaton import FiniteAutomaton
 from ial.bouncing.exports.jflap import jff_text
+from ial.bouncing.exports.piece_source import PieceTables, c_piece_header
 from ial.bouncing.exports.verilog import memory_image, verilog_module
+from ial.bouncing.rays.piece_map import PieceMap
 from ial.errors import ConfigError
 from ial.whole_file import whole_files
 
@@ -112,3 +114,19 @@ def export(
         for part, content in zip(lent, contents, strict=True):
             part.write_bytes(content)
     return files
+
+
+def export_pieces(pieces: PieceMap, path: str | Path, prefix: str = "bounce") -> PieceTables:
+    """Write a map of pieces of walls as a C header; return its tables.
+
+    Raises
+    ------
+    ConfigError
+        If the prefix is no identifier.
+    OutputError
+        If the file cannot be written.
+    """
+    content = c_piece_header(pieces, prefix)
+    with whole_files(path, what="the export") as (part,):
+        part.write_text(content, encoding="ascii")
+    return PieceTables.of(pieces, prefix)

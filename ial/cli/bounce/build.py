@@ -2,7 +2,7 @@
 
 import shlex
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -21,9 +21,20 @@ from ial.cli.bounce.options import (
     step_cells,
 )
 from ial.cli.bounce.options import environments as read_environments
+from ial.cli.bounce.options import goal as read_goal
 from ial.cli.shell.options import Json, Overwrite
 from ial.cli.shell.outputs import check_outputs
 from ial.cli.shell.terminal import say, say_json, shown
+from ial.errors import ConfigError
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from ial.bouncing.execution_bounds import ExecutionBounds
+    from ial.bouncing.filters.goal import Goal
+    from ial.maps.polygons.environment import Environment
+
+_HEADINGS = 72
 
 
 def build(
@@ -37,24 +48,81 @@ def build(
     rule: FreeRule = "centre",
     corner: CornerPolicy = "segment",
     most_states: MostStates = 2**24,
+    rays: Annotated[bool, typer.Option("--rays", help="For a robot with real geometry: it starts anywhere, in any heading.")] = False,
+    turn_error: Annotated[str, typer.Option(metavar="DEGREES", help="Bound of the error of a turn; it means --rays.")] = "0",
+    step_error: Annotated[str, typer.Option(metavar="PART", help="Bound of the error of a step, as a part of it: 0.02.")] = "0",
+    count_error: Annotated[int, typer.Option(metavar="N", help="Bound of the error of the number of steps between bumps.")] = 0,
+    part: Annotated[str, typer.Option(metavar="METRES", help="With --rays: how wide the pieces of walls are, at most.")] = "1/4",
+    rooms: Annotated[
+        list[str] | None,
+        typer.Option("--room", metavar="NAME=X0,Y0,X1,Y1", help="With --rays: who is in a rectangle is localized; may be repeated."),
+    ] = None,
+    within: Annotated[
+        str | None,
+        typer.Option(metavar="METRES", help="With --rays, no rooms: who is in a square so wide is localized; 1 if left out."),
+    ] = None,
     overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> None:
-    """Build the filter that tells from bumps where a robot is, up to what it cannot tell apart."""
+    """Build the filter that tells from bumps where a robot is, up to what it cannot tell apart.
+
+    Without --rays or an error, it is for a robot that is put back to the centre of its cell at each step.
+    """
     from ial.bouncing.cells.headings import Headings
+    from ial.bouncing.execution_bounds import ExecutionBounds
     from ial.bouncing.filters.building import build_filter
     from ial.bouncing.filters.filter_file import write_filter
     from ial.cli.bounce.report import about, lines
 
     check_outputs([out], environments, overwrite)
     loaded = read_environments(environments)
+    bounds = ExecutionBounds(number(turn_error, "--turn-error"), number(step_error, "--step-error"), count_error)
+    if rays or bounds != ExecutionBounds():
+        if cell is not None or len(loaded) > 1 or number(radius, "--radius") != 0:
+            raise ConfigError(
+                "a filter with --rays or errors is for a point in one environment without cells; leave out --cell, give one environment, "
+                "and for a disk the polygons in which its centre can be, without --radius"
+            )
+        goal = read_goal(rooms or [], within)
+        robot = number(angle, "--angle"), number(step or "1/4", "--step"), bounds
+        _build_pieces(loaded, robot, number(part, "--part"), headings or _HEADINGS, goal, out, as_json)
+        return
+    if rooms or within is not None:
+        raise ConfigError("--room and --within are for robots with real geometry; give --rays or an error, too")
     width = cell_width(loaded, cell)
-    robot = Headings.of_angle(number(angle, "--angle"), headings, step_cells(step, loaded, width))
-    made = build_filter(loaded, robot, width, number(radius, "--radius"), rule, corner, most_states)
+    lattice = Headings.of_angle(number(angle, "--angle"), headings, step_cells(step, loaded, width))
+    made = build_filter(loaded, lattice, width, number(radius, "--radius"), rule, corner, most_states)
     write_filter(made, out)
     if as_json:
         say_json(about(made))
         return
     for line in lines(about(made)):
+        say(line)
+    say(f"filter in {shown(out)}; use it with: ial bounce run {shlex.quote(str(shown(out)))} --stream 0010001")
+
+
+def _build_pieces(
+    loaded: "dict[str, Environment]",
+    robot: "tuple[Fraction, Fraction, ExecutionBounds]",
+    part: "Fraction",
+    headings: int,
+    goal: "Goal",
+    out: Path,
+    as_json: bool,
+) -> None:
+    """Build the filter of a robot with real geometry: its bouncing angle, its step and the bounds of its errors."""
+    from ial.bouncing.filters.filter_file import write_filter
+    from ial.bouncing.filters.piece_filter import PieceFilter
+    from ial.bouncing.rays.piece_map import PieceMap
+    from ial.cli.bounce.piece_report import about, lines
+
+    (name, environment) = next(iter(loaded.items()))
+    made = PieceFilter(PieceMap.of(environment, *robot, part, headings), name, *robot, goal)
+    write_filter(made, out)
+    record = about(made)
+    if as_json:
+        say_json(record)
+        return
+    for line in lines(record):
         say(line)
     say(f"filter in {shown(out)}; use it with: ial bounce run {shlex.quote(str(shown(out)))} --stream 0010001")

@@ -32,16 +32,27 @@ def export(
     from ial.bouncing.exports.c_tables import CTables
     from ial.bouncing.exports.exported_filter import ExportedFilter
     from ial.bouncing.filters.filter_file import read_filter
+    from ial.bouncing.filters.piece_filter import PieceFilter
+    from ial.errors import ConfigError
 
     form = formats.format_of(out) if form is None else form
     check_outputs(formats.files_of(out, form), [filter_path], overwrite)
-    exported = ExportedFilter.of(read_filter(filter_path), minimize, restart)
+    made = read_filter(filter_path)
+    if isinstance(made, PieceFilter):
+        if form != "c" or minimize or restart:
+            raise ConfigError(f"{filter_path}: a filter of pieces of walls is no table; give --format c, without --minimize and --restart")
+        tables = formats.export_pieces(made.map, out, prefix)
+        say(f"{len(made.map)} pieces of walls in {shown(out)}")
+        say(f"flash: {tables.flash_bytes:,} bytes")
+        say(f"RAM: {tables.ram_bytes:,} bytes")
+        return
+    exported = ExportedFilter.of(made, minimize, restart)
     files = formats.export(exported, out, form, prefix, force)
     say(f"{len(exported.table) - 1} states and a trap in {' and '.join(shown(file) for file in files)}")
     if form == "c":
-        tables = CTables.of(exported, prefix)
-        say(f"flash: {tables.stepping_bytes:,} bytes for steps and colours, {tables.flash_bytes:,} with all tables")
-        say(f"RAM: {tables.ram_bytes} byte{'s' * (tables.ram_bytes != 1)}")
-        excess = tables.excess(flash)
+        c_tables = CTables.of(exported, prefix)
+        say(f"flash: {c_tables.stepping_bytes:,} bytes for steps and colours, {c_tables.flash_bytes:,} with all tables")
+        say(f"RAM: {c_tables.ram_bytes} byte{'s' * (c_tables.ram_bytes != 1)}")
+        excess = c_tables.excess(flash)
         if excess:
             remark("warning", excess, "yellow")

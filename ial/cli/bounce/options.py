@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 if TYPE_CHECKING:
+    from ial.bouncing.filters.goal import Goal
     from ial.maps.polygons.environment import Environment
 
 EnvironmentPaths = Annotated[
@@ -85,3 +86,25 @@ def step_cells(step: str | None, loaded: "dict[str, Environment]", width: Fracti
     """Return how far a step leads, in widths of a cell."""
     one = width or next(each.cell for each in loaded.values() if each.cell)
     return Fraction(1) if step is None else number(step, "--step") / one
+
+
+def goal(rooms: Sequence[str], within: str | None) -> "Goal":
+    """Return when a robot counts as localized: in one of several rooms, or within a width, 1 m if neither is given.
+
+    Raises
+    ------
+    ConfigError
+        If a room cannot be read, or both are given.
+    """
+    from ial.bouncing.filters.goal import Goal, Room
+    from ial.errors import ConfigError
+
+    read = []
+    for text in rooms:
+        name, _, corners = text.partition("=")
+        if corners.count(",") != 3:
+            raise ConfigError(f"--room is {text!r}; give NAME=X0,Y0,X1,Y1: a name, and the least and the greatest coordinates in metres")
+        x0, y0, x1, y1 = (number(part, "--room") for part in corners.split(","))
+        read.append(Room(name, x0, y0, x1, y1))
+    width = None if read and within is None else number("1" if within is None else within, "--within")
+    return Goal(tuple(read), width)

@@ -26,18 +26,29 @@ def run(
     if (stream is None) == (file is None):
         raise StreamError("give the observations either as --stream BITS or as --file FILE")
     from ial.bouncing.filters.filter_file import read_filter
+    from ial.bouncing.filters.piece_filter import PieceFilter
     from ial.bouncing.stream import parse_stream
-    from ial.cli.bounce.outcome import lines, outcome
+    from ial.cli.bounce import outcome, piece_outcome
 
     made = read_filter(filter_path)
     observations = parse_stream(_read(file) if stream is None else stream)
-    table = made.table.restarting() if restart else made.table
-    states = table.run_closed(observations) if world == "closed" else table.run(observations)
-    record: dict[str, Any] = outcome(made, states)
+    record: dict[str, Any]
+    if isinstance(made, PieceFilter):
+        record = piece_outcome.outcome(made, observations, restart)
+        if world == "closed" and record["rejected_at"]:
+            raise StreamError(
+                f"observation {record['rejected_at'][0]} of the stream fits no place of the environment, but the world is closed; check "
+                "the map, the bouncing angle and the bounds of errors, or use the open world"
+            )
+        said = piece_outcome.lines(record)
+    else:
+        table = made.table.restarting() if restart else made.table
+        record = outcome.outcome(made, table.run_closed(observations) if world == "closed" else table.run(observations))
+        said = outcome.lines(record, _MOST_PLACES)
     if as_json:
         say_json(record)
     else:
-        for line in lines(record, _MOST_PLACES):
+        for line in said:
             say(line)
     if record["localized_at"] is None:
         raise typer.Exit(NEVER_LOCALIZED)

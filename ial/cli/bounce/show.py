@@ -50,9 +50,9 @@ def show(
 ) -> None:
     """Draw a filter. A filter file says how it was built, so the options are for environments alone."""
     from ial.bouncing.cells.headings import Headings
+    from ial.bouncing.filters.bounce_filter import BounceFilter
     from ial.bouncing.filters.building import all_free_cells, build_filter
     from ial.bouncing.filters.filter_file import read_filter
-    from ial.bouncing.filters.robust_filter import RobustFilter
     from ial.errors import ConfigError
 
     check_outputs([out], paths, overwrite)
@@ -60,7 +60,7 @@ def show(
         raise ConfigError(f"{late}: a filter comes first, and its environments after it: {late.name} ENV …")
     if paths[0].suffix == ".npz":
         read = read_filter(paths[0])
-        if isinstance(read, RobustFilter):
+        if not isinstance(read, BounceFilter):
             raise ConfigError(f"{paths[0]}: the filter of a robot with errors has no cycles and no basins; give one without errors")
         made = read
         rasters = _walls(made, paths[1:])

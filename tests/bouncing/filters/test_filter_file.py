@@ -11,8 +11,10 @@ from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.filters.bounce_filter import BounceFilter
 from ial.bouncing.filters.filter_file import read_filter, write_filter
 from ial.bouncing.filters.goal import Goal, Room
+from ial.bouncing.filters.piece_filter import PieceFilter
 from ial.bouncing.filters.robust_building import build_robust_filter
 from ial.bouncing.filters.robust_filter import RobustFilter
+from ial.bouncing.rays.piece_map import PieceMap
 from ial.errors import FilterError, OutputError
 from tests.bouncing.rays.test_real_robot import ROOM
 
@@ -25,6 +27,7 @@ def path(made: BounceFilter, tmp_path: Path) -> Path:
 
 def test_a_filter_comes_back_as_it_was(made: BounceFilter, path: Path) -> None:
     again = read_filter(path)
+    assert isinstance(again, BounceFilter)
     assert again.setting == made.setting
     for part in ("table", "places"):
         for name, array in vars(getattr(made, part)).items():
@@ -45,6 +48,25 @@ def test_a_robust_filter_comes_back_as_it_was(tmp_path: Path) -> None:
     for part in ("table", "places"):
         for name, array in vars(getattr(made, part)).items():
             assert np.array_equal(array, getattr(getattr(again, part), name)), name
+
+
+def test_a_filter_of_pieces_comes_back_as_it_was(tmp_path: Path) -> None:
+    bounds, angle, step = ExecutionBounds(Fraction(1, 3), Fraction(1, 7), 1), Fraction(200, 3), Fraction(1, 3)
+    pieces = PieceMap.of(ROOM, angle, step, bounds, Fraction(1), 36)
+    made = PieceFilter(pieces, "room", angle, step, bounds, Goal(width=Fraction(3, 2)))
+    write_filter(made, tmp_path / "c.npz")
+    again = read_filter(tmp_path / "c.npz")
+    assert isinstance(again, PieceFilter)
+    assert (again.name, again.bounce_deg, again.step_m, again.bounds, again.goal) == ("room", angle, step, bounds, made.goal)
+    assert (again.map.headings, again.map.turns, again.map.walls.origin) == (36, pieces.turns, pieces.walls.origin)
+    for name in ("parts", "starts", "ends", "least", "most", "longest", "boxes_mm"):
+        assert np.array_equal(getattr(again.map, name), getattr(pieces, name)), name
+    assert np.array_equal(again.map.walls.table[0], pieces.walls.table[0])
+    damaged = bytearray((tmp_path / "c.npz").read_bytes())
+    damaged[len(damaged) // 2] ^= 0x10
+    (tmp_path / "c.npz").write_bytes(damaged)
+    with pytest.raises(FilterError, match=r"c\.npz: .*(truncated|damaged)"):
+        read_filter(tmp_path / "c.npz")
 
 
 def test_a_truncated_file_is_refused(path: Path) -> None:
