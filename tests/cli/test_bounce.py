@@ -216,7 +216,7 @@ def sets(ial: Cli, hall: Path) -> Path:
 
 @pytest.mark.slow
 def test_a_robot_with_errors_is_localized_in_a_room_from_two_commands(ial: Cli, hall: Path, sets: Path) -> None:
-    noise = ("--noise-turn", 2, "--noise-step", "0.02", "--noise-count", 1, "--step", "1/4", "--angle", 100)
+    noise = ("--turn-error", 2, "--step-error", "0.02", "--count-error", 1, "--step", "1/4", "--angle", 100)
     told = set()
     for seed in range(6):
         more = ("--seed", seed, "--steps", 300, "--out", "s.txt", "--truth", "t.csv", "--overwrite")
@@ -299,9 +299,9 @@ def test_simulate_starts_where_it_is_told(ial: Cli, hall: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--noise-turn", "190"], "error of a turn is 190°"),
-        (["--noise-step", "2"], "error of a step is 2 of its length"),
-        (["--noise-count", "-1"], "error of a count is -1"),
+        (["--turn-error", "190"], "error of a turn is 190°"),
+        (["--step-error", "2"], "error of a step is 2 of its length"),
+        (["--count-error", "-1"], "error of a count is -1"),
         (["--start", "2.5", "3", "0"], "cannot start at (2.5, 3)"),
         (["--step", "0"], "step is 0 m"),
         (["--angle", "0"], "multiple of 360°"),

@@ -10,13 +10,17 @@ from ial.cli.bounce.options import (
     Angle,
     Cell,
     CornerPolicy,
+    CountError,
     EnvironmentPaths,
     FreeRule,
     HeadingCount,
     MostStates,
     Radius,
+    StepError,
     StepLength,
+    TurnError,
     cell_width,
+    execution_bounds,
     number,
     step_cells,
 )
@@ -48,10 +52,10 @@ def build(
     rule: FreeRule = "centre",
     corner: CornerPolicy = "segment",
     most_states: MostStates = 2**24,
-    rays: Annotated[bool, typer.Option("--rays", help="For a robot with real geometry: it starts anywhere, in any heading.")] = False,
-    turn_error: Annotated[str, typer.Option(metavar="DEGREES", help="Bound of the error of a turn; it means --rays.")] = "0",
-    step_error: Annotated[str, typer.Option(metavar="PART", help="Bound of the error of a step, as a part of it: 0.02.")] = "0",
-    count_error: Annotated[int, typer.Option(metavar="N", help="Bound of the error of the number of steps between bumps.")] = 0,
+    rays: Annotated[bool, typer.Option("--rays", help="For real geometry; --step is 1/4 and --headings 72 if left out.")] = False,
+    turn_error: TurnError = "0",
+    step_error: StepError = "0",
+    count_error: CountError = 0,
     part: Annotated[str, typer.Option(metavar="METRES", help="With --rays: how wide the pieces of walls are, at most.")] = "1/4",
     rooms: Annotated[
         list[str] | None,
@@ -66,7 +70,7 @@ def build(
 ) -> None:
     """Build the filter that tells from bumps where a robot is, up to what it cannot tell apart.
 
-    Without --rays or an error, it is for a robot that is put back to the centre of its cell at each step.
+    Without --rays or an error, it is for a robot that is put back to the centre of its cell at each step; an error means --rays.
     """
     from ial.bouncing.cells.headings import Headings
     from ial.bouncing.execution_bounds import ExecutionBounds
@@ -76,7 +80,7 @@ def build(
 
     check_outputs([out], environments, overwrite)
     loaded = read_environments(environments)
-    bounds = ExecutionBounds(number(turn_error, "--turn-error"), number(step_error, "--step-error"), count_error)
+    bounds = execution_bounds(turn_error, step_error, count_error)
     if rays or bounds != ExecutionBounds():
         if cell is not None or len(loaded) > 1 or number(radius, "--radius") != 0:
             raise ConfigError(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 if TYPE_CHECKING:
+    from ial.bouncing.execution_bounds import ExecutionBounds
     from ial.bouncing.filters.goal import Goal
     from ial.maps.polygons.environment import Environment
 
@@ -27,6 +28,9 @@ FreeRule = Annotated[Literal["centre", "inside"], typer.Option("--rule", help="W
 CornerPolicy = Annotated[
     Literal["segment", "endpoint"], typer.Option("--corner", help="What of a step must be free: all of it, or the cell where it ends.")
 ]
+TurnError = Annotated[str, typer.Option("--turn-error", metavar="DEGREES", help="Bound of the error of a turn.")]
+StepError = Annotated[str, typer.Option("--step-error", metavar="PART", help="Bound of the error of a step, as a part of it: 0.02.")]
+CountError = Annotated[int, typer.Option("--count-error", metavar="N", help="Bound of the error of the number of steps between bumps.")]
 MostStates = Annotated[int, typer.Option("--most-states", min=1, metavar="N", help="Give up at so many states.")]
 
 
@@ -86,6 +90,19 @@ def step_cells(step: str | None, loaded: "dict[str, Environment]", width: Fracti
     """Return how far a step leads, in widths of a cell."""
     one = width or next(each.cell for each in loaded.values() if each.cell)
     return Fraction(1) if step is None else number(step, "--step") / one
+
+
+def execution_bounds(turn_error: str, step_error: str, count_error: int) -> "ExecutionBounds":
+    """Return the bounds of the errors of a robot.
+
+    Raises
+    ------
+    ConfigError
+        If one cannot be meant.
+    """
+    from ial.bouncing.execution_bounds import ExecutionBounds
+
+    return ExecutionBounds(number(turn_error, "--turn-error"), number(step_error, "--step-error"), count_error)
 
 
 def goal(rooms: Sequence[str], within: str | None) -> "Goal":

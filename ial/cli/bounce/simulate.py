@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from ial.cli.bounce.options import number
+from ial.cli.bounce.options import CountError, StepError, TurnError, execution_bounds, number
 from ial.cli.shell.options import Overwrite
 from ial.cli.shell.outputs import check_outputs
 from ial.cli.shell.terminal import say, shown
@@ -19,9 +19,9 @@ def simulate(
     radius: Annotated[str, typer.Option(metavar="METRES", help="The radius of the robot; 0 for a point.")] = "0",
     seed: Annotated[int, typer.Option(min=0, help="The same seed gives the same run.")] = 0,
     steps: Annotated[int, typer.Option(min=1, metavar="N", help="How many observations.")] = 200,
-    noise_turn: Annotated[str, typer.Option(metavar="DEGREES", help="Bound of the error of a turn.")] = "0",
-    noise_step: Annotated[str, typer.Option(metavar="PART", help="Bound of the error of a step, as a part of it: 0.02.")] = "0",
-    noise_count: Annotated[int, typer.Option(metavar="N", help="Bound of the error of the number of steps between bumps.")] = 0,
+    turn_error: TurnError = "0",
+    step_error: StepError = "0",
+    count_error: CountError = 0,
     start: Annotated[
         tuple[str, str, str] | None, typer.Option(metavar="X Y DEGREES", help="Where to start; at random if it is left out.")
     ] = None,
@@ -31,14 +31,13 @@ def simulate(
     """Drive a bouncing robot through an environment, with real geometry and errors within bounds, and write down what it observes."""
     from itertools import islice
 
-    from ial.bouncing.execution_bounds import ExecutionBounds
     from ial.bouncing.rays.real_robot import RealRobot
     from ial.bouncing.stream_file import write_stream, write_truth
     from ial.maps.polygons.environment import load_environment
 
     check_outputs([out] if truth is None else [out, truth], [environment], overwrite)
     loaded = load_environment(environment)
-    bounds = ExecutionBounds(number(noise_turn, "--noise-turn"), number(noise_step, "--noise-step"), noise_count)
+    bounds = execution_bounds(turn_error, step_error, count_error)
     place = None
     if start is not None:
         x, y, heading = (number(text, "--start") for text in start)
