@@ -8,6 +8,9 @@ import numpy.typing as npt
 from ial.bouncing.exports.c_array import CArray, width_of
 from ial.bouncing.exports.identifier import check_identifier
 from ial.bouncing.rays.piece_map import PieceMap
+from ial.errors import FilterError
+
+_MOST_STEPS = 2**16 - 1  # the counter stays there
 
 _HEADER = """\
 /*
@@ -237,9 +240,13 @@ def c_piece_header(map_: PieceMap, prefix: str = "bounce") -> str:
     ------
     ConfigError
         If the prefix is no identifier.
+    FilterError
+        If a robot can make more steps between two bumps than fit into 16 bits.
     """
     tables = PieceTables.of(map_, prefix)
     arrays, count = tables.arrays, len(map_)
+    if (longest := int(map_.longest.max(initial=0))) >= _MOST_STEPS:
+        raise FilterError(f"there can be {longest} steps between two bumps, and the header counts up to {_MOST_STEPS}; use longer steps")
     first_turn = map_.turns[0] % map_.headings
     last_turn = first_turn + map_.turns[1] - map_.turns[0]
     rest = (1 << count % 8) - 1
@@ -263,7 +270,7 @@ def c_piece_header(map_: PieceMap, prefix: str = "bounce") -> str:
         "arc": arrays["starts"].width,
         "heading": max(width_of(map_.headings), 16),
         "part": max(width_of(int(map_.parts.sum())), 16),
-        "longest_first": int(map_.longest.max(initial=0)),
+        "longest_first": longest,
         "last_byte": f"filter->held[{prefix.upper()}_BYTES - 1u] = {rest}u;" if rest else "",
         "first_turn": first_turn,
         "last_turn": last_turn,

@@ -1,4 +1,5 @@
 import subprocess
+from dataclasses import replace
 from fractions import Fraction
 from itertools import islice
 from pathlib import Path
@@ -12,7 +13,7 @@ from ial.bouncing.exports.piece_source import PieceTables, c_piece_header
 from ial.bouncing.rays.piece_map import PieceMap
 from ial.bouncing.rays.piece_model import PieceModel
 from ial.bouncing.rays.real_robot import RealRobot
-from ial.errors import ConfigError
+from ial.errors import ConfigError, FilterError
 from tests.bouncing.exports import avr
 from tests.bouncing.exports.rooms import random_streams
 from tests.bouncing.exports.test_c_source import COMPILERS, compiled
@@ -147,6 +148,12 @@ def test_bytes_are_those_of_the_compiler(room: PieceMap, tmp_path: Path) -> None
     program += "(unsigned long)sizeof(room_filter)); return 0; }\n"
     done = subprocess.run([compiled("gcc", c_piece_header(room, "room"), program, tmp_path)], capture_output=True, text=True, check=True)
     assert done.stdout == f"{tables.flash_bytes} {tables.ram_bytes}"
+
+
+def test_steps_that_do_not_fit_the_counter_are_refused(room: PieceMap) -> None:
+    c_piece_header(replace(room, most=np.minimum(room.most, 1) * 65_534), "room")
+    with pytest.raises(FilterError, match="65535 steps between two bumps"):
+        c_piece_header(replace(room, most=np.minimum(room.most, 1) * 65_535), "room")
 
 
 def test_what_is_no_identifier_is_refused(room: PieceMap) -> None:
