@@ -1,7 +1,7 @@
 """`WallContact`: in which cells a disk can stand that touches a wall, and in which it certainly overlaps one.
 
-Distances are computed to nearest and compared with `Walls.margin` to spare: each is a root of two squares of products and differences of
-coordinates, far fewer roundings than that margin is made for. A cell that can hold a disk is never left out.
+Distances are computed to nearest and compared with a margin to spare: each is a root of two squares of products and differences of
+coordinates, far fewer roundings than `Walls.margin` is made for. A cell that can hold a disk is never left out.
 """
 
 from dataclasses import dataclass
@@ -10,8 +10,18 @@ from fractions import Fraction
 import numpy as np
 import numpy.typing as npt
 
+from ial.contractors.margins import ABOVE, BELOW
 from ial.maps.polygons.raster import MaskArray, Raster
 from ial.maps.polygons.walls import FloatArray, Walls
+
+
+def raster_scale(walls: Walls, raster: Raster) -> float:
+    """Return a length that no distance between two points of an environment or of its raster exceeds, in metres.
+
+    Large cells reach far beyond the walls; what is rounded about their corners grows with this, and so must margins.
+    """
+    rows, columns = raster.free.shape
+    return max(walls.scale, float(np.hypot(rows, columns)) * float(raster.cell) * ABOVE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,14 +47,15 @@ class WallContact:
     def of(cls, walls: Walls, raster: Raster, radius: Fraction) -> "WallContact":
         """Return where a disk of some radius meets walls, for the cells of a raster of the same environment."""
         rows, columns = raster.free.shape
-        cell, least, most = float(raster.cell), float(radius) - walls.margin, float(radius) + walls.margin
+        margin = walls.margin * (raster_scale(walls, raster) / walls.scale)
+        cell, least, most = float(raster.cell), float(radius) * BELOW - margin, float(radius) * ABOVE + margin
         overlapping = np.zeros(raster.free.shape, dtype=np.bool_)
         touching = []
         for wall in range(len(walls)):
             ends = np.array([[walls.x[at], walls.y[at]] for at in (wall, walls.after[wall])])
             first = np.maximum(np.floor((ends.min(axis=0) - most) / cell).astype(np.int64) - 1, 0)
             stop = np.minimum(np.floor((ends.max(axis=0) + most) / cell).astype(np.int64) + 2, [columns, rows])
-            near, far = _distances(ends, np.arange(first[0], stop[0] + 1) * cell, np.arange(first[1], stop[1] + 1) * cell, walls.margin)
+            near, far = _distances(ends, np.arange(first[0], stop[0] + 1) * cell, np.arange(first[1], stop[1] + 1) * cell, margin)
             overlapping[first[1] : stop[1], first[0] : stop[0]] |= far < least
             row, column = np.nonzero((near <= most) & (far >= least))
             touching.append((row + first[1]) * columns + column + first[0])

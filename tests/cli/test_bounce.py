@@ -4,6 +4,8 @@ import shlex
 import shutil
 import subprocess
 from collections.abc import Callable
+from fractions import Fraction
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +15,13 @@ from typer.testing import CliRunner
 
 from ial.bouncing.filters.bounce_filter import BounceFilter
 from ial.bouncing.filters.filter_file import read_filter
+from ial.bouncing.filters.piece_filter import PieceFilter
+from ial.bouncing.rays.real_robot import RealRobot
+from ial.cli.bounce.piece_outcome import outcome
 from ial.cli.main import app
 from ial.maps.grids.map_file import write_map
 from ial.maps.grids.occupancy_grid import OccupancyGrid
+from ial.maps.polygons.environment import load_environment
 
 Cli = Callable[..., Any]
 WKT = "POLYGON ((0 0, 9 0, 9 4, 5 4, 5 7, 0 7, 0 0), (2 2, 2 4, 3 4, 3 2, 2 2))"
@@ -238,6 +244,23 @@ def test_a_robot_with_errors_is_localized_in_a_room_from_two_commands(ial: Cli, 
     assert told == {"left", "right"}
 
 
+@pytest.mark.slow
+def test_a_robot_may_be_localized_by_a_step_without_a_bump(ial: Cli, hall: Path) -> None:
+    """What is told of the first time agrees with what every shorter stream tells."""
+    assert ial("bounce", "build", hall, *REAL, "--headings", 36, "--part", "1/2", "--within", 4, "--out", "f.npz").exit_code == 0
+    made = read_filter(Path("f.npz"))
+    assert isinstance(made, PieceFilter)
+    by_steps = 0
+    for seed in range(12):
+        robot = RealRobot(load_environment(hall), Fraction(100), Fraction(1, 4), bounds=made.bounds, seed=seed)
+        stream = [pose.observation for pose in islice(robot.run(), 250)]
+        first = outcome(made, stream, False)["localized_at"]
+        told = next((at for at in range(1, len(stream) + 1) if outcome(made, stream[:at], False)["localized"]), None)
+        assert first == told
+        by_steps += first is not None and not stream[first - 1]
+    assert by_steps > 0
+
+
 def test_run_with_a_set_filter_says_what_it_does_not_know(ial: Cli, sets: Path) -> None:
     result = ial("bounce", "run", sets, "--stream", "000")
     assert (result.exit_code, result.stdout) == (3, "after 3 observations: no bump yet\n")
@@ -272,12 +295,16 @@ def test_a_set_filter_is_exported_as_c_alone(ial: Cli, sets: Path) -> None:
     ("more", "message"),
     [
         (("--rays", "--radius", "1/2"), "for a disk the polygons in which its centre can be"),
-        (("--turn-error", 1, "--cell", 1), "leave out --cell"),
+        (("--turn-error", 1, "--cell", 1), "leave them out with --rays or an error"),
+        (("--rays", "--rule", "inside"), "leave them out with --rays or an error"),
+        (("--rays", "--corner", "endpoint"), "leave them out with --rays or an error"),
+        (("--count-error", 1, "--most-states", 9), "leave them out with --rays or an error"),
+        (("--part", "1/2"), "--room, --within and --part are for robots with real geometry"),
         (("--rays", "--room", "kitchen"), "NAME=X0,Y0,X1,Y1"),
         (("--rays", "--room", "a=0,0,1,x"), "--room"),
         (("--rays", "--room", "a=0,0,1,1", "--within", 1), "either of the two"),
         (("--rays", "--within", 0), "within 0 m"),
-        (("--within", 1), "--room and --within are for robots with real geometry"),
+        (("--within", 1), "--room, --within and --part are for robots with real geometry"),
         (("--turn-error", -1), "error of a turn is -1°"),
         (("--rays", "--headings", 8), "8 intervals of headings are too wide"),
         (("--rays", "--part", 0), "0 m wide"),

@@ -6,6 +6,7 @@ import numpy.typing as npt
 from ial.contractors import threads
 from ial.contractors.kernels import kernel
 from ial.maps.polygons.raster import MaskArray, Raster
+from ial.maps.polygons.wall_contact import raster_scale
 from ial.maps.polygons.walls import FloatArray, Walls
 
 
@@ -83,7 +84,8 @@ def open_ways(walls: Walls, raster: Raster, offsets: npt.NDArray[np.int64]) -> M
     """
     lines: FloatArray = np.stack([walls.x, walls.y, walls.x[walls.after], walls.y[walls.after]], axis=1)
     ways = np.zeros((len(offsets), *raster.free.shape), dtype=np.bool_)
-    # A turn is a difference of two products of lengths below the scale: a few roundings of its square, for which the margin is far more.
-    least = walls.margin * walls.scale
+    # A turn is a difference of two products of lengths below a scale: a few roundings of its square, for which the margin is far more.
+    scale = raster_scale(walls, raster)
+    least = walls.margin * (scale / walls.scale) * scale
     threads.run(_mark_open, len(raster.free), raster.free, offsets, float(raster.cell), lines, least, ways, minimum=4)
     return ways

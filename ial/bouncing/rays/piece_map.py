@@ -26,6 +26,7 @@ from ial.maps.polygons.walls import Walls
 IntArray = npt.NDArray[np.int32]
 
 MOST_PIECES = 2**20
+_NEVER_COARSER = 2**31  # pieces are fixed here, so no number of walls is too large for a set of them
 _FULL_DEG = 360
 
 
@@ -100,7 +101,7 @@ class PieceMap:
             raise ConfigError(f"parts of walls are {float(part_m):g} m wide; give a width greater than 0")
         if headings < 32:
             raise ConfigError(f"{headings} intervals of headings are too wide to follow rays; give at least 32")
-        model = RayModel(environment, bounce_deg, step_m, bounds)
+        model = RayModel(environment, bounce_deg, step_m, bounds, _NEVER_COARSER)
         parts = np.ceil(model.walls.lengths / float(part_m)).astype(np.int64)
         if parts.sum() * headings > MOST_PIECES:
             raise FilterError(f"there would be {parts.sum() * headings} pieces; use fewer headings or wider parts, at most {MOST_PIECES}")

@@ -56,7 +56,7 @@ def build(
     turn_error: TurnError = "0",
     step_error: StepError = "0",
     count_error: CountError = 0,
-    part: Annotated[str, typer.Option(metavar="METRES", help="With --rays: how wide the pieces of walls are, at most.")] = "1/4",
+    part: Annotated[str | None, typer.Option(metavar="METRES", help="With --rays: the width of pieces of walls; 1/4 if left out.")] = None,
     rooms: Annotated[
         list[str] | None,
         typer.Option("--room", metavar="NAME=X0,Y0,X1,Y1", help="With --rays: who is in a rectangle is localized; may be repeated."),
@@ -82,17 +82,19 @@ def build(
     loaded = read_environments(environments)
     bounds = execution_bounds(turn_error, step_error, count_error)
     if rays or bounds != ExecutionBounds():
-        if cell is not None or len(loaded) > 1 or number(radius, "--radius") != 0:
+        if (cell, rule, corner, most_states) != (None, "centre", "segment", 2**24):
+            raise ConfigError("--cell, --rule, --corner and --most-states are for filters of cells; leave them out with --rays or an error")
+        if len(loaded) > 1 or number(radius, "--radius") != 0:
             raise ConfigError(
-                "a filter with --rays or errors is for a point in one environment without cells; leave out --cell, give one environment, "
-                "and for a disk the polygons in which its centre can be, without --radius"
+                "a filter with --rays or errors is for a point in one environment; give one environment, and for a disk the polygons in "
+                "which its centre can be, without --radius"
             )
         goal = read_goal(rooms or [], within)
         robot = number(angle, "--angle"), number(step or "1/4", "--step"), bounds
-        _build_pieces(loaded, robot, number(part, "--part"), headings or _HEADINGS, goal, out, as_json)
+        _build_pieces(loaded, robot, number("1/4" if part is None else part, "--part"), headings or _HEADINGS, goal, out, as_json)
         return
-    if rooms or within is not None:
-        raise ConfigError("--room and --within are for robots with real geometry; give --rays or an error, too")
+    if rooms or within is not None or part is not None:
+        raise ConfigError("--room, --within and --part are for robots with real geometry; give --rays or an error, too")
     width = cell_width(loaded, cell)
     lattice = Headings.of_angle(number(angle, "--angle"), headings, step_cells(step, loaded, width))
     made = build_filter(loaded, lattice, width, number(radius, "--radius"), rule, corner, most_states)

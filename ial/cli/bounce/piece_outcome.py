@@ -19,7 +19,7 @@ def outcome(made: PieceFilter, observations: Iterable[int], restart: bool) -> di
         if model.empty(states):
             rejected.append(count)
             states = model.universe() if restart else states
-        if observation and first is None and made.is_localized(states):
+        if first is None and made.is_localized(states):
             first = count
     box = made.box(states)
     return {

@@ -85,7 +85,7 @@ def expected(map_: PieceMap, streams: list[list[int]]) -> list[list[int]]:
 
 
 def replayed(program: Path, streams: list[list[int]]) -> list[list[int]]:
-    """The rows that the program prints, for all streams, one after the other; of a trapped filter nothing is compared but that."""
+    """The rows that the program prints, for all streams, one after the other."""
     text = "".join("".join(map(str, stream)) + "\n" for stream in streams)
     done = subprocess.run([program], input=text, capture_output=True, text=True, check=True)
     return [[int(word) for word in line.split()] for line in done.stdout.splitlines()]

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from ial.bouncing.cells.headings import Headings
+from ial.bouncing.cells.noisy_map import NoisyMap
+from ial.bouncing.cells.noisy_model import NoisyModel
 from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.filters.goal import Goal, Room
 from ial.bouncing.filters.robust_building import build_robust_filter
@@ -67,18 +69,28 @@ def test_a_room_is_told_by_its_name() -> None:
     assert made.room(made.table.trap) is None
 
 
-def test_fewer_states_tell_no_more(square: RobustFilter) -> None:
-    few, many = built(Goal(width=Fraction(4)), most=300), square
-    assert len(few.table) <= 301 < len(many.table)
-    assert few.growth > many.growth
+@pytest.mark.slow
+def test_fewer_states_tell_no_more_than_the_sets_they_stand_for(square: RobustFilter) -> None:
+    few = built(Goal(width=Fraction(4)), most=300)
+    assert len(few.table) <= 301 < len(square.table)
+    assert few.growth > square.growth
+    model = NoisyModel(NoisyMap(ARMS, HALF, few.setting.headings, ERRORS, RADIUS).graph)
     chooser, told = random.Random(1), 0
     for _ in range(300):
-        here, there = 0, 0
+        states, held = [0, 0], model.universe()
         for _ in range(20):
             bump = int(chooser.random() < 0.4)
-            here, there = few.table.step(here, bump), many.table.step(there, bump)
-            told += few.table.is_localized(here)
-    assert told > 0
+            held = model.step(held, None, bump)
+            if model.empty(held):
+                break
+            states = [each.table.step(state, bump) for each, state in zip((few, square), states, strict=True)]
+            for each, state in zip((few, square), states, strict=True):
+                assert state != each.table.trap
+                assert each.table.uncertainty[state] >= len(held)
+                if each.table.is_localized(state):
+                    assert np.isin(held, each.places.of_state(state)).all()
+                    told += 1
+    assert told > 50
 
 
 def test_a_robot_in_one_of_several_environments() -> None:

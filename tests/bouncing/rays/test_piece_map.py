@@ -1,12 +1,16 @@
 from fractions import Fraction
 
+import numpy as np
 import pytest
 
 from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.rays.piece_map import PieceMap
+from ial.bouncing.rays.ray_model import RayModel
 from ial.errors import ConfigError, FilterError
+from ial.maps.polygons.environment import Environment
+from ial.maps.polygons.polygon import Polygon
 from tests.bouncing.piece_truth import follow
-from tests.bouncing.rays.test_real_robot import ROOM
+from tests.bouncing.rays.test_real_robot import ROOM, ring
 
 NONE = ExecutionBounds()
 
@@ -15,6 +19,17 @@ NONE = ExecutionBounds()
 @pytest.mark.parametrize("first", range(0, 120, 12))
 def test_a_robot_with_real_geometry_is_never_lost(first: int) -> None:
     assert sum(follow(seed).losses for seed in range(first, first + 12)) == 0
+
+
+def test_many_walls_are_no_reason_to_refuse() -> None:
+    """`RayModel` refuses so many unless its sets may have more pieces; here sets are not made coarser."""
+    teeth = [corner for x in range(330) for corner in ((x, 4), (x + 0.5, 3.5))][::-1]
+    saw = Environment((Polygon(ring((0, 0), (330, 0), *teeth)),))
+    with pytest.raises(ConfigError, match="too coarse"):
+        RayModel(saw, Fraction(100), Fraction(100))
+    made = PieceMap.of(saw, Fraction(100), Fraction(100), NONE, Fraction(1000), 32)
+    assert len(made) == 32 * (2 + 2 * 330)
+    assert (np.diff(made.starts) > 0).all()
 
 
 @pytest.mark.parametrize(
