@@ -9,7 +9,7 @@ from timing import timed
 
 sys.path.append(str(Path(__file__).parents[1]))  # the robots are those of the tests
 
-from tests.bouncing import piece_truth
+from tests.bouncing import disk_truth, piece_truth
 from tests.bouncing.truth import Run, follow
 
 ABOUT = """\
@@ -39,12 +39,17 @@ def main() -> None:
     """Measure, print, and write."""
     parser = options(__doc__ or "")
     parser.add_argument("--runs", type=int, default=10_000, metavar="N", help="how many robots")
+    parser.add_argument("--disks", type=int, default=2_000, metavar="N", help="how many disks")
     chosen = parser.parse_args()
     report = Report("A bouncing robot is never outside of its set", ABOUT)
     head = ("seeds", "legs", "pieces at most", "median of what is left of the set", "s", "losses")
     report.table(head, rows(follow, chosen.runs, 1000))
     report.say("The same on fixed grids of pieces of walls (`PieceMap`), for twelve legs each, compared after every bump.\n")
     report.table(head, rows(piece_truth.follow, chosen.runs, 1000))
+    report.say("Disks, in the same environments; every third starts on a lattice, in a multiple of 45°.\n")
+    report.table(head, rows(disk_truth.follow, chosen.disks, 500))
+    report.say("Disks on fixed grids.\n")
+    report.table(head, rows(disk_truth.follow_pieces, chosen.disks, 500))
     report.write(chosen.out)
 
 

@@ -14,8 +14,9 @@ import numpy as np
 from ial.contractors.intervals.trigonometric import sincos
 from ial.contractors.kernels import kernel
 from ial.contractors.margins import ABOVE, ROUNDINGS
+from ial.maps.polygons.contact_edge import NO_FACT
 
-_X, _Y, _DX, _DY, _LENGTH, _ANGLE, _SLANT = range(7)
+_X, _Y, _DX, _DY, _LENGTH, _ANGLE, _SLANT, _BULGE, _TILT = range(9)
 _AFTER, _BEFORE, _BEND = range(3)
 _PI, _TWO_PI = np.pi, 2.0 * np.pi
 
@@ -30,11 +31,11 @@ def _turned(low, high, cosine, sine):  # type: ignore[no-untyped-def]
 def sort_out(wall, low, high, table):  # type: ignore[no-untyped-def]
     """Split an interval of headings at a wall: (free from, to, against the wall from, to); empty ones have from > to.
 
-    Both hold the headings along the wall, which a robot may follow or not.
+    Both hold the headings along the wall, which a robot may follow or not; where the wall is a chord, those along all of its arc.
     """
     slant = table[wall, _SLANT]
     shift = table[wall, _ANGLE] + _TWO_PI * np.floor((0.5 * (low + high) - table[wall, _ANGLE] + 0.5 * _PI) / _TWO_PI)
-    pad = slant + ROUNDINGS * (8.0 + abs(low) + abs(high))
+    pad = slant + table[wall, _TILT] + ROUNDINGS * (8.0 + abs(low) + abs(high))
     free_low, free_high = max(low, shift - pad), min(high, shift + _PI + pad)
     middle = 0.5 * (low + high) - shift  # from −π/2 to 3π/2
     against_low = low if middle <= 0.5 * _PI else max(low, shift + _PI - pad)
@@ -63,26 +64,32 @@ def _measure(wall, first, last, low, high, table, links, margin, sides, fronts, 
     cosine, sine = max(1.0 - 0.5 * width * width - ROUNDINGS, 0.0), min(width, 1.0)
     x0, y0 = table[wall, _X] + first * table[wall, _DX], table[wall, _Y] + first * table[wall, _DY]
     x1, y1 = table[wall, _X] + last * table[wall, _DX], table[wall, _Y] + last * table[wall, _DY]
+    own = margin + table[wall, _BULGE]  # of where a ray starts
     for i in range(len(table)):
         dx0, dy0, dx1, dy1 = table[i, _X] - x0, table[i, _Y] - y0, table[i, _X] - x1, table[i, _Y] - y1
         l0, f0, l1, f1 = c * dy0 - s * dx0, c * dx0 + s * dy0, c * dy1 - s * dx1, c * dx1 + s * dy1
         a, b = _turned(l0, l0, cosine, sine * abs(f0))
         d, e = _turned(l1, l1, cosine, sine * abs(f1))
-        sides[i, 0], sides[i, 1] = min(a, d) - margin, max(b, e) + margin
+        sides[i, 0], sides[i, 1] = min(a, d) - own, max(b, e) + own
         a, b = _turned(f0, f0, cosine, sine * abs(l0))
         d, e = _turned(f1, f1, cosine, sine * abs(l1))
-        fronts[i, 0], fronts[i, 1] = min(a, d) - margin, max(b, e) + margin
-    # Headings do not lead into the wall itself, so its start is never to the right and its end never to the left.
+        fronts[i, 0], fronts[i, 1] = min(a, d) - own, max(b, e) + own
     after, own_x, own_y = links[wall, _AFTER], table[wall, _DX] / table[wall, _LENGTH], table[wall, _DY] / table[wall, _LENGTH]
     rise, run = own_x * s - own_y * c, own_x * c + own_y * s
-    leaving = min(rise, cosine * rise) - sine * abs(run) > table[wall, _SLANT]  # certainly, and not along the wall
-    forward = min(run, cosine * run) - sine * abs(rise) > table[wall, _SLANT]
-    backward = max(run, cosine * run) + sine * abs(rise) < -table[wall, _SLANT]
-    sides[wall, 0], sides[after, 1] = max(sides[wall, 0], 0.0), min(sides[after, 1], 0.0)
+    least_rise, slant = min(rise, cosine * rise) - sine * abs(run), table[wall, _SLANT]
+    least_run, most_run = _turned(run, run, cosine, sine * abs(rise))
+    leaving, forward, backward = least_rise > slant, least_run > slant, most_run < -slant  # certainly; leaving is not along the wall
+    # Headings do not lead into the wall itself, so its start is never to the right and its end never to the left. From an arc that holds
+    # only of headings that are not near the direction of the chord that leads there: from a tangent, by at most two tilts.
+    bent = 2.0 * table[wall, _TILT] + slant
+    if bent == slant or least_rise > bent or backward:
+        sides[wall, 0] = max(sides[wall, 0], 0.0)
+    if bent == slant or least_rise > bent or forward:
+        sides[after, 1] = min(sides[after, 1], 0.0)
     for j in range(len(table)):
         spans[j, 0], spans[j, 1] = np.inf, -np.inf
-        k = links[j, _AFTER]
-        if j == wall or (sides[j, 0] > 0.0 and sides[k, 0] > 0.0) or (sides[j, 1] < 0.0 and sides[k, 1] < 0.0):
+        k, bulge = links[j, _AFTER], table[j, _BULGE]
+        if j == wall or (sides[j, 0] > bulge and sides[k, 0] > bulge) or (sides[j, 1] < -bulge and sides[k, 1] < -bulge):
             continue
         length, slant = table[j, _LENGTH], table[j, _SLANT]
         ex, ey = table[j, _DX] / length, table[j, _DY] / length
@@ -95,12 +102,12 @@ def _measure(wall, first, last, low, high, table, links, margin, sides, fronts, 
             # The distance is a quotient of the height over the wall, which depends on the start alone, and the sine of the angle.
             h0 = (table[j, _X] - x0) * ey - (table[j, _Y] - y0) * ex
             h1 = (table[j, _X] - x1) * ey - (table[j, _Y] - y1) * ex
-            slack = margin + slant * (abs(table[j, _X] - x0) + abs(table[j, _Y] - y0) + abs(table[j, _X] - x1) + abs(table[j, _Y] - y1))
+            slack = own + slant * (abs(table[j, _X] - x0) + abs(table[j, _Y] - y0) + abs(table[j, _X] - x1) + abs(table[j, _Y] - y1))
             h_low, h_high = min(h0, h1) - slack, max(h0, h1) + slack
-            bend = links[j, _BEND] if j == after else links[k, _BEND] if k == wall else 2
+            bend = links[j, _BEND] if j == after else links[k, _BEND] if k == wall else NO_FACT
             if bend == 1:
                 h_low, h_high = max(h_low, 0.0), max(h_high, 0.0)
-            elif bend != 2:
+            elif bend != NO_FACT:
                 h_low, h_high = min(h_low, 0.0), min(h_high, 0.0)
             low_quotient = h_low / cut_high if h_low >= 0.0 else h_low / cut_low
             high_quotient = h_high / cut_low if h_high >= 0.0 else h_high / cut_high
@@ -198,21 +205,25 @@ def shoot(begin, walls, lower, upper, nearest, farthest, table, links, margin, o
         reach = min(_reach(wall, links, sides, spans), farthest[row])
         x0, y0 = table[wall, _X] + first * table[wall, _DX], table[wall, _Y] + first * table[wall, _DY]
         x1, y1 = table[wall, _X] + last * table[wall, _DX], table[wall, _Y] + last * table[wall, _DY]
+        own = margin + table[wall, _BULGE]
         for j in range(corners):
-            near, far = max(max(spans[j, 0], 0.0), nearest[row]), min(spans[j, 1], reach)
-            if near > far or cuts[j, 1] < 0.0:
+            # An arc is met before its chord: on the way by more than it bulges, if at an angle.
+            length, slant, bulge = table[j, _LENGTH], table[j, _SLANT], table[j, _BULGE]
+            early = bulge / min(cuts[j, 0], 1.0) if cuts[j, 0] > 0.0 else bulge
+            near, far = max(max(spans[j, 0] - ABOVE * early, 0.0), nearest[row]), min(spans[j, 1] + bulge, reach)
+            if near > far or cuts[j, 1] < -table[j, _TILT]:
                 continue
             part_low, part_high = 0.0, 1.0
-            if cuts[j, 0] > 0.0:
+            if cuts[j, 0] > bulge / length:
                 # For one start the part is monotone in the heading, for one heading it is linear in the start: corners bound it.
-                a, b = _hit_part(x0, y0, low, j, table, margin)
-                d, e = _hit_part(x0, y0, high, j, table, margin)
+                a, b = _hit_part(x0, y0, low, j, table, own)
+                d, e = _hit_part(x0, y0, high, j, table, own)
                 part_low, part_high = min(a, d), max(b, e)
-                a, b = _hit_part(x1, y1, low, j, table, margin)
-                d, e = _hit_part(x1, y1, high, j, table, margin)
-                part_low, part_high = max(0.0, min(part_low, min(a, d))), min(1.0, max(part_high, max(b, e)))
+                a, b = _hit_part(x1, y1, low, j, table, own)
+                d, e = _hit_part(x1, y1, high, j, table, own)
+                beside = ABOVE * early / length
+                part_low, part_high = max(0.0, min(part_low, min(a, d)) - beside), min(1.0, max(part_high, max(b, e)) + beside)
             # Along the wall, the robot moves by the distance times the cosine of the angle.
-            length, slant = table[j, _LENGTH], table[j, _SLANT]
             ex, ey = table[j, _DX] / length, table[j, _DY] / length
             p0 = (x0 - table[j, _X]) * ex + (y0 - table[j, _Y]) * ey
             p1 = (x1 - table[j, _X]) * ex + (y1 - table[j, _Y]) * ey
@@ -223,9 +234,7 @@ def shoot(begin, walls, lower, upper, nearest, farthest, table, links, margin, o
             along, cut = c * ex + s * ey, c * ey - s * ex
             along_low, along_high = _turned(along, along, cosine, sine * abs(cut))
             along_low, along_high = along_low - slant, along_high + slant
-            slack = margin + slant * (
-                abs(table[j, _X] - x0) + abs(table[j, _Y] - y0) + abs(table[j, _X] - x1) + abs(table[j, _Y] - y1) + far
-            )
+            slack = own + slant * (abs(table[j, _X] - x0) + abs(table[j, _Y] - y0) + abs(table[j, _X] - x1) + abs(table[j, _Y] - y1) + far)
             moved_low = min(near * along_low, far * along_low) - slack
             moved_high = max(near * along_high, far * along_high) + slack
             part_low = max(part_low, (min(p0, p1) + moved_low) / length - ROUNDINGS)

@@ -1,4 +1,4 @@
-"""`Walls`: the boundary of an environment as arrays of doubles, with what rounding did to them as a bound."""
+"""`Walls`: the boundary of an environment, or of where a disk's centre can be, as arrays of doubles, with bounds of what rounding did."""
 
 from dataclasses import dataclass
 from fractions import Fraction
@@ -9,9 +9,9 @@ import numpy.typing as npt
 
 from ial.contractors.expressions.functions import atan2, hypot
 from ial.contractors.margins import ABOVE, ROUNDINGS
-from ial.errors import MapError
+from ial.errors import ConfigError, MapError
+from ial.maps.polygons.contact_edge import contact_edges
 from ial.maps.polygons.environment import Environment
-from ial.maps.polygons.ring import cross
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
@@ -32,7 +32,8 @@ _LARGEST_SLANT = 2.0**-10
 class Walls:
     """The walls of an environment: wall i leads from its own corner to that of wall ``after[i]``, with free space on its left.
 
-    Coordinates are counted from `origin`, so that those of maps far from (0, 0) keep all their bits.
+    Coordinates are counted from `origin`, so that those of maps far from (0, 0) keep all their bits. For a disk, the walls are those that
+    stop its centre, see `contact_edge`.
 
     Parameters
     ----------
@@ -41,7 +42,11 @@ class Walls:
     after, before
         The next and the previous wall of its ring, int32.
     bend
-        1 where the corner at the start of a wall is convex, −1 where it is reflex, 0 where it is none, int32.
+        1 where the corner at the start of a wall is convex, −1 where it is reflex, 0 where it is none, 2 where that is no help, int32.
+    bulge
+        How far what stops a robot lies before the wall, at most, float64, in metres; 0 but for the arcs around corners of a disk.
+    tilt
+        By how much that is turned from the wall, at most, float64, in radians; −2 where nothing stops there.
     origin
         The point from which coordinates are counted, exactly, in metres.
     """
@@ -51,40 +56,50 @@ class Walls:
     after: IntArray
     before: IntArray
     bend: IntArray
+    bulge: FloatArray
+    tilt: FloatArray
     origin: tuple[Fraction, Fraction]
 
     def __repr__(self) -> str:
         return f"<Walls: {len(self.x)}>"
 
     @classmethod
-    def of(cls, environment: Environment) -> "Walls":
+    def of(cls, environment: Environment, radius: Fraction = Fraction(0)) -> "Walls":
         """Return the walls of all polygons of an environment.
+
+        Parameters
+        ----------
+        environment
+            The free space.
+        radius
+            The radius of the robot in metres; 0 for a point.
 
         Raises
         ------
+        ConfigError
+            If the radius is negative.
         MapError
             If there are more than 4096, or one is so short that rounding might turn it.
         """
-        rings = [ring for polygon in environment.polygons for ring in polygon.rings]
-        count = sum(map(len, rings))
-        if count > MOST_WALLS:
-            raise MapError(f"the environment has {count} walls; rays are supported among at most {MOST_WALLS}, so simplify its polygons")
-        x0, y0, _, _ = environment.bounds
-        x: list[float] = []
-        y: list[float] = []
+        if radius < 0:
+            raise ConfigError(f"the radius of the robot is {float(radius):g} m; give 0 for a point, or a positive number")
+        rings = [contact_edges(ring, radius) for polygon in environment.polygons for ring in polygon.rings]
+        edges = [edge for ring in rings for edge in ring]
+        if len(edges) > MOST_WALLS:
+            raise MapError(
+                f"the environment has {len(edges)} walls; rays are supported among at most {MOST_WALLS}, so simplify its polygons"
+            )
+        x0, y0 = (low - radius for low in environment.bounds[:2])
         after: list[int] = []
         before: list[int] = []
-        bend: list[int] = []
         for ring in rings:
-            first, size = len(x), len(ring)
-            x += [float(px - x0) for px, _ in ring]
-            y += [float(py - y0) for _, py in ring]
+            first, size = len(after), len(ring)
             after += [first + (at + 1) % size for at in range(size)]
             before += [first + (at - 1) % size for at in range(size)]
-            turns = [cross(ring[at - 1], ring[at], ring[(at + 1) % size]) for at in range(size)]  # type: ignore[arg-type]
-            bend += [(turn > 0) - (turn < 0) for turn in turns]
-        nexts, previous, bends = (np.array(each, dtype=np.int32) for each in (after, before, bend))
-        walls = cls(np.array(x), np.array(y), nexts, previous, bends, (x0, y0))
+        nexts, previous, bends = (np.array(each, dtype=np.int32) for each in (after, before, [edge.bend for edge in edges]))
+        x, y = np.array([float(edge.x - x0) for edge in edges]), np.array([float(edge.y - y0) for edge in edges])
+        bulge, tilt = np.array([edge.bulge_m for edge in edges]), np.array([edge.tilt for edge in edges])
+        walls = cls(x, y, nexts, previous, bends, bulge, tilt, (x0, y0))
         if not (walls.lengths.min() > 0.0 and walls.slants.max() <= _LARGEST_SLANT):
             shortest = int(walls.lengths.argmin())
             raise MapError(
@@ -95,6 +110,11 @@ class Walls:
 
     def __len__(self) -> int:
         return len(self.x)
+
+    @property
+    def stopping(self) -> npt.NDArray[np.bool_]:
+        """Whether a robot can bump at each wall; others are only there to close rings."""
+        return self.tilt >= 0.0
 
     @cached_property
     def lengths(self) -> FloatArray:
@@ -128,7 +148,10 @@ class Walls:
 
     @cached_property
     def table(self) -> tuple[FloatArray, IntArray]:
-        """What kernels read: x, y, dx, dy, length, angle and slant of each wall, float64 of shape (walls, 7); after, before and bend."""
+        """What kernels read of each wall, float64 of shape (walls, 9), int32 of shape (walls, 3).
+
+        x, y, dx, dy, length, angle, slant, bulge and tilt; after, before and bend.
+        """
         dx, dy = self.x[self.after] - self.x, self.y[self.after] - self.y
-        numbers = np.stack([self.x, self.y, dx, dy, self.lengths, self.angles, self.slants], axis=1)
+        numbers = np.stack([self.x, self.y, dx, dy, self.lengths, self.angles, self.slants, self.bulge, self.tilt], axis=1)
         return np.ascontiguousarray(numbers), np.ascontiguousarray(np.stack([self.after, self.before, self.bend], axis=1))

@@ -221,11 +221,14 @@ def sets(ial: Cli, hall: Path) -> Path:
 
 
 @pytest.mark.slow
-def test_a_robot_with_errors_is_localized_in_a_room_from_two_commands(ial: Cli, hall: Path, sets: Path) -> None:
+@pytest.mark.parametrize("radius", ["0", "1/5"])
+def test_a_robot_with_errors_is_localized_in_a_room_from_two_commands(ial: Cli, hall: Path, sets: Path, radius: str) -> None:
+    built = ial("bounce", "build", hall, *REAL, *ROOMS, "--radius", radius, "--out", sets, "--overwrite")
+    assert ("a disk of radius 0.2 m" if radius != "0" else "a point") + " with real geometry" in built.stdout
     noise = ("--turn-error", 2, "--step-error", "0.02", "--count-error", 1, "--step", "1/4", "--angle", 100)
     told = set()
     for seed in range(6):
-        more = ("--seed", seed, "--steps", 300, "--out", "s.txt", "--truth", "t.csv", "--overwrite")
+        more = ("--radius", radius, "--seed", seed, "--steps", 300, "--out", "s.txt", "--truth", "t.csv", "--overwrite")
         assert ial("bounce", "simulate", hall, *noise, *more).exit_code == 0
         record = json.loads(ial("bounce", "run", sets, "--file", "s.txt", "--json").stdout)
         assert record["rejected_at"] == []
@@ -294,7 +297,8 @@ def test_a_set_filter_is_exported_as_c_alone(ial: Cli, sets: Path) -> None:
 @pytest.mark.parametrize(
     ("more", "message"),
     [
-        (("--rays", "--radius", "1/2"), "for a disk the polygons in which its centre can be"),
+        (("--rays", "--radius", "5"), "a robot of radius 5 m fits nowhere"),
+        (("--rays", "--radius", "-1/2"), "radius of the robot is -0.5 m"),
         (("--turn-error", 1, "--cell", 1), "leave them out with --rays or an error"),
         (("--rays", "--rule", "inside"), "leave them out with --rays or an error"),
         (("--rays", "--corner", "endpoint"), "leave them out with --rays or an error"),

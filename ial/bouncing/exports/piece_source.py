@@ -74,10 +74,12 @@ static inline int {p}_update({p}_filter *filter, int bump) {{
     if (filter->arriving) {{
         any = filter->steps <= {longest_first}u;
         if (bump && any) {{
-            for (i = 0; i < {P}_BYTES; i++) {{
-                filter->held[i] = 255u;
+            uint{piece}_t piece;
+            for (piece = 0; piece < {P}_PIECES; piece++) {{
+                if ({start_at} < {stop_at}) {{
+                    filter->held[piece >> 3] |= (uint8_t)(1u << (piece & 7u));
+                }}
             }}
-            {last_byte}
         }}
     }} else {{
         for (i = 0; i < {P}_BYTES; i++) {{
@@ -249,7 +251,6 @@ def c_piece_header(map_: PieceMap, prefix: str = "bounce") -> str:
         raise FilterError(f"there can be {longest} steps between two bumps, and the header counts up to {_MOST_STEPS}; use longer steps")
     first_turn = map_.turns[0] % map_.headings
     last_turn = first_turn + map_.turns[1] - map_.turns[0]
-    rest = (1 << count % 8) - 1
     millimetres = max(arrays[name].width for name in ("x0", "y0", "x1", "y1"))
     x, y = map_.walls.origin
     words = {
@@ -271,7 +272,6 @@ def c_piece_header(map_: PieceMap, prefix: str = "bounce") -> str:
         "heading": max(width_of(map_.headings), 16),
         "part": max(width_of(int(map_.parts.sum())), 16),
         "longest_first": longest,
-        "last_byte": f"filter->held[{prefix.upper()}_BYTES - 1u] = {rest}u;" if rest else "",
         "first_turn": first_turn,
         "last_turn": last_turn,
         "longest_at": arrays["longest"].element("piece"),

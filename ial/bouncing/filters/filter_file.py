@@ -33,7 +33,10 @@ _PLACES: dict[str, dict[str, type[np.generic]]] = {
     _EXACT: dict.fromkeys((*_CELL, "following", "anchors", "members"), np.int32) | {"starts": np.int64},
     _ROBUST: dict.fromkeys((*_CELL, "starts", "places", "class_starts", "class_headings"), np.int64),
 }
-_WALLS: dict[str, type[np.generic]] = {"x": np.float64, "y": np.float64, "after": np.int32, "before": np.int32, "bend": np.int32}
+_WALLS: dict[str, type[np.generic]] = {
+    **dict.fromkeys(("x", "y", "bulge", "tilt"), np.float64),
+    **dict.fromkeys(("after", "before", "bend"), np.int32),
+}
 _ARCS: dict[str, type[np.generic]] = {"parts": np.int64, "starts": np.int64, "ends": np.int32, "least": np.int32, "most": np.int32}
 _ARRAYS = {form: _TABLE | places for form, places in _PLACES.items()} | {_PIECES: _WALLS | _ARCS}
 Filter = BounceFilter | RobustFilter | PieceFilter
@@ -116,6 +119,7 @@ def _piece_record(made: PieceFilter) -> dict[str, Any]:
         "name": made.name,
         "bounce_deg": str(made.bounce_deg),
         "step_m": str(made.step_m),
+        "radius_m": str(made.radius_m),
         "bounds": made.bounds.record(),
         "goal": made.goal.record(),
         "origin": [str(each) for each in made.map.walls.origin],
@@ -131,4 +135,4 @@ def _piece_filter(record: dict[str, Any], arrays: Arrays) -> PieceFilter:
     pieces = PieceMap(walls=walls, headings=record["headings"], turns=(least, most), **{name: arrays[name] for name in _ARCS})
     angle, step = Fraction(record["bounce_deg"]), Fraction(record["step_m"])
     bounds, goal = ExecutionBounds.of_record(record["bounds"]), Goal.of_record(record["goal"])
-    return PieceFilter(pieces, record["name"], angle, step, bounds, goal)
+    return PieceFilter(pieces, record["name"], angle, step, bounds, goal, Fraction(record["radius_m"]))

@@ -1,4 +1,4 @@
-"""`PieceFilter`: the set filter of a point robot with real geometry and bounded errors, and when it counts as localized."""
+"""`PieceFilter`: the set filter of a robot with real geometry and bounded errors, and when it counts as localized."""
 
 from dataclasses import dataclass
 from fractions import Fraction
@@ -25,6 +25,8 @@ class PieceFilter:
         What the robot may do wrong.
     goal
         When the robot counts as localized.
+    radius_m
+        The radius of the robot, whose place is its centre; 0 for a point.
     """
 
     map: PieceMap
@@ -33,6 +35,7 @@ class PieceFilter:
     step_m: Fraction
     bounds: ExecutionBounds
     goal: Goal
+    radius_m: Fraction = Fraction(0)
 
     def __repr__(self) -> str:
         return f"<PieceFilter of {len(self.map)} pieces for {self.name}, {self.bounds}>"

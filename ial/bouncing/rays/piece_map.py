@@ -18,7 +18,7 @@ from ial.bouncing.rays.ray_set import RaySet
 from ial.contractors.intervals.interval import Interval
 from ial.contractors.intervals.trigonometric import TWO_PI_LOWER, TWO_PI_UPPER
 from ial.contractors.margins import ABOVE, BELOW, ROUNDINGS
-from ial.errors import ConfigError, FilterError
+from ial.errors import ConfigError, FilterError, MapError
 from ial.maps.polygons.environment import Environment
 from ial.maps.polygons.ray_shooting import reaches
 from ial.maps.polygons.walls import Walls
@@ -39,7 +39,8 @@ class PieceMap:
     walls
         The walls.
     parts
-        Into how many parts of equal width each wall is divided, int64 of shape (walls,); the parts of all walls are numbered through.
+        Into how many parts of equal width each wall is divided, int64 of shape (walls,), 0 if no robot can bump there; the parts of all
+        walls are numbered through.
     headings
         How many intervals of headings there are; interval h is from h to h + 1 of so many parts of a full turn.
     turns
@@ -76,12 +77,13 @@ class PieceMap:
         bounds: ExecutionBounds,
         part_m: Fraction,
         headings: int,
+        radius_m: Fraction = Fraction(0),
     ) -> "PieceMap":
-        """Return the map of a point robot in an environment.
+        """Return the map of a robot in an environment.
 
         Parameters
         ----------
-        environment, bounce_deg, step_m, bounds
+        environment, bounce_deg, step_m, bounds, radius_m
             As for `RayModel`.
         part_m
             How wide a part of a wall is, at most, in metres.
@@ -95,14 +97,14 @@ class PieceMap:
         FilterError
             If there would be too many pieces.
         MapError
-            If there are too many walls.
+            If there are too many walls, or the robot is too large.
         """
         if part_m <= 0:
             raise ConfigError(f"parts of walls are {float(part_m):g} m wide; give a width greater than 0")
         if headings < 32:
             raise ConfigError(f"{headings} intervals of headings are too wide to follow rays; give at least 32")
-        model = RayModel(environment, bounce_deg, step_m, bounds, _NEVER_COARSER)
-        parts = np.ceil(model.walls.lengths / float(part_m)).astype(np.int64)
+        model = RayModel(environment, bounce_deg, step_m, bounds, _NEVER_COARSER, radius_m=radius_m)
+        parts = np.where(model.walls.stopping, np.ceil(model.walls.lengths / float(part_m)), 0.0).astype(np.int64)
         if parts.sum() * headings > MOST_PIECES:
             raise FilterError(f"there would be {parts.sum() * headings} pieces; use fewer headings or wider parts, at most {MOST_PIECES}")
         part_deg = Fraction(_FULL_DEG, headings)
@@ -139,7 +141,8 @@ class PieceMap:
         for low in (walls.x, walls.y):
             ends = [low[wall] + (part + more) / self.parts[wall] * (low[walls.after] - low)[wall] for more in (0, 1)]
             # The margin is for far more roundings than those of an end and of its product with 1000.
-            least, most = np.minimum(*ends) - 2.0 * walls.margin, np.maximum(*ends) + 2.0 * walls.margin
+            margin = 2.0 * walls.margin + walls.bulge[wall]
+            least, most = np.minimum(*ends) - margin, np.maximum(*ends) + margin
             sides.append((np.maximum(np.floor(1000.0 * least), 0.0), np.ceil(1000.0 * most)))
         (x0, x1), (y0, y1) = sides
         return np.stack([x0, y0, x1, y1], axis=1).astype(np.int64)
@@ -172,13 +175,16 @@ def _pieces(parts: npt.NDArray[np.int64], headings: int) -> RaySet:
 def _hits(model: RayModel, pieces: RaySet, parts: npt.NDArray[np.int64], longest: int) -> tuple[npt.NDArray[np.int64], ...]:
     """Return which parts robots can touch at a bump that left from which piece, and after how many steps; repeats are possible."""
     first_part = np.cumsum(parts) - parts
+    standing = model.may_stand(pieces)
+    if not standing.any():
+        raise MapError(f"a robot of radius {float(model.radius_m):g} m fits nowhere in the environment; check both")
     table, links = model.walls.table
     reach = reaches(pieces.walls, pieces.lower, pieces.upper, pieces.arriving, table, links, model.walls.margin)
     begins, ends, counts = [], [], []
     for count in range(longest):
         steps = np.full(len(pieces), count, dtype=np.int32)
         states = RaySet(pieces.walls, pieces.lower, pieces.upper, steps, pieces.arriving, reach)
-        leaving = np.flatnonzero(reach >= model.ways(states)[0])
+        leaving = np.flatnonzero(standing & (reach >= model.ways(states)[0]))
         pieces_of, hit = model.hits(states.only(leaving))
         per = parts[hit.walls].astype(np.float64)
         # The ends are parts of 1: rounding them and the products changes the product by less than this part of the number of parts.
@@ -187,7 +193,9 @@ def _hits(model: RayModel, pieces: RaySet, parts: npt.NDArray[np.int64], longest
         many = last - first + 1
         rows = np.repeat(np.arange(len(many)), many)
         further = np.arange(len(rows)) - np.repeat(np.cumsum(many) - many, many)
-        begins.append(leaving[pieces_of[rows]])
-        ends.append(first_part[hit.walls[rows]] + first[rows] + further)
-        counts.append(np.full(len(rows), count, dtype=np.int64))
+        to = first_part[hit.walls[rows]] + first[rows] + further
+        kept = standing[to]  # whether a robot can stand there is the same in all headings
+        begins.append(leaving[pieces_of[rows[kept]]])
+        ends.append(to[kept])
+        counts.append(np.full(len(to[kept]), count, dtype=np.int64))
     return np.concatenate(begins), np.concatenate(ends), np.concatenate(counts)

@@ -109,10 +109,13 @@ class PieceModel(Model[PieceSet, None, int]):
         return PieceSet(states.pieces[steps <= longest], steps[steps <= longest])
 
     def _bumped(self, states: PieceSet) -> PieceSet:
-        """Return the pieces that the robot leaves from after a bump now: all of them after the first, of which only the end is known."""
+        """Return the pieces that the robot leaves from after a bump now.
+
+        After the first bump, of which only the end is known, these are all but those on which no robot can stand.
+        """
         map_ = self.map
         if ((states.pieces == NOT_BUMPED) & (states.steps <= self._longest_first)).any():
-            return self._leaving(np.arange(len(map_), dtype=np.int32))
+            return self._leaving(np.flatnonzero(map_.longest >= 0).astype(np.int32))
         known = states.pieces != NOT_BUMPED
         marked = np.zeros(len(map_), dtype=np.bool_)
         arcs = map_.starts, map_.ends, map_.least, map_.most

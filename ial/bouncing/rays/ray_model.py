@@ -18,7 +18,8 @@ from ial.contractors.intervals.interval import Interval
 from ial.contractors.intervals.trigonometric import TWO_PI_LOWER, TWO_PI_UPPER
 from ial.contractors.margins import ABOVE, BELOW
 from ial.contractors.rounding import check_rounding
-from ial.errors import ConfigError
+from ial.errors import ConfigError, MapError
+from ial.maps.polygons.clearance import Clearance
 from ial.maps.polygons.environment import Environment
 from ial.maps.polygons.ray_shooting import reaches, shoot
 from ial.maps.polygons.walls import FloatArray, Walls
@@ -32,9 +33,9 @@ _ROOM = 4  # how many hits for each piece there is room for at first
 class RayModel(Model[RaySet, None, int]):
     """Sets of pieces of walls with headings; a reading is 1 for a bump and 0 for a step without one. A motion is always None.
 
-    The robot is a point that drives straight on until it touches a wall that its heading leads into, turns by φ, and drives on. A step
-    without contact gives 0, contact gives 1: of k steps between two bumps, the way is in [k·h, (k + 1)·h]. Where it only touches a wall,
-    at a reflex corner or along the wall, it may bump or not; both are kept. Sets are closed, and every bound is rounded outward.
+    The robot is a point or a disk that drives straight on until it touches a wall that its heading leads into, turns by φ, and drives on.
+    A step without contact gives 0, contact gives 1: of k steps between two bumps, the way is in [k·h, (k + 1)·h]. Where it only touches a
+    wall, at a reflex corner or along the wall, it may bump or not; both are kept. Sets are closed, and every bound is rounded outward.
 
     Parameters
     ----------
@@ -52,6 +53,8 @@ class RayModel(Model[RaySet, None, int]):
         Intervals that hold the heading at the start, in degrees; all headings are possible by default.
     region
         A rectangle that holds the place at the start: least x and y, greatest x and y; everywhere by default.
+    radius_m
+        The radius of a disk, whose place is its centre, in metres; 0 for a point.
 
     Raises
     ------
@@ -84,9 +87,11 @@ class RayModel(Model[RaySet, None, int]):
         most_pieces: int = MOST_PIECES,
         headings_deg: tuple[tuple[Fraction, Fraction], ...] = (),
         region: tuple[Fraction, Fraction, Fraction, Fraction] | None = None,
+        radius_m: Fraction = Fraction(0),
     ) -> None:
         check_rounding()
-        self.walls = Walls.of(environment)
+        self.walls = Walls.of(environment, radius_m)
+        self._clearance = Clearance.of(environment, radius_m)
         if step_m <= 0:
             raise ConfigError(f"the step is {float(step_m):g} m; give a length greater than 0")
         if bounce_deg % _FULL_DEG == 0:
@@ -98,7 +103,7 @@ class RayModel(Model[RaySet, None, int]):
         least = least_pieces(self.walls)
         if most_pieces < least:
             raise ConfigError(f"sets of at most {most_pieces} pieces are too coarse for {len(self.walls)} walls; allow at least {least}")
-        self.bounds, self.most_pieces = bounds, most_pieces
+        self.bounds, self.most_pieces, self.radius_m = bounds, most_pieces, radius_m
         shorter, longer = Interval(step_m * (1 - bounds.step)), Interval(step_m * (1 + bounds.step))
         self._step = shorter.lower, longer.upper
         turn = bounce_deg % _FULL_DEG  # whole turns would only be rounded
@@ -113,14 +118,24 @@ class RayModel(Model[RaySet, None, int]):
         return f"<RayModel among {len(self.walls)} walls, {self.bounds}>"
 
     def universe(self) -> RaySet:
-        """Return every piece of wall that the robot can come to first, from wherever it may be, in a heading it may have."""
+        """Return every piece of wall that the robot can come to first, from wherever it may be, in a heading it may have.
+
+        Raises
+        ------
+        MapError
+            If there is none: the robot is too large.
+        """
         cells = [(low, high) for low, high in self._headings] or [(0.0, TWO_PI_UPPER)]
-        walls = np.tile(np.arange(len(self.walls), dtype=np.int32), len(cells))
-        lower = np.stack([np.zeros(len(walls)), np.repeat([low for low, _ in cells], len(self.walls))], axis=1)
-        upper = np.stack([np.ones(len(walls)), np.repeat([high for _, high in cells], len(self.walls))], axis=1)
+        stopping = np.flatnonzero(self.walls.stopping).astype(np.int32)
+        walls = np.tile(stopping, len(cells))
+        lower = np.stack([np.zeros(len(walls)), np.repeat([low for low, _ in cells], len(stopping))], axis=1)
+        upper = np.stack([np.ones(len(walls)), np.repeat([high for _, high in cells], len(stopping))], axis=1)
         count = len(walls)
         every = RaySet(walls, lower, upper, np.zeros(count, dtype=np.int32), np.ones(count, dtype=np.bool_), np.full(count, np.inf))
-        return self._prepared(every)
+        prepared = self._prepared(every)
+        if not len(prepared):
+            raise MapError(f"a robot of radius {float(self.radius_m):g} m fits nowhere in the environment; check both")
+        return prepared
 
     def predict(self, states: RaySet, motion: None) -> RaySet:
         """Return where the robot can be after a step of which nothing was observed."""
@@ -169,10 +184,15 @@ class RayModel(Model[RaySet, None, int]):
     def _prepared(self, states: RaySet) -> RaySet:
         """Return a set of bounded size, with how far the robot can get from each of its pieces."""
         states = coarsened(states, self.walls, self.most_pieces)
+        states = states.only(self.may_stand(states))
         table, links = self.walls.table
         reach = reaches(states.walls, states.lower, states.upper, states.arriving, table, links, self.walls.margin)
         prepared = RaySet(states.walls, states.lower, states.upper, states.steps, states.arriving, reach)
         return prepared.only(reach >= 0.0)
+
+    def may_stand(self, states: RaySet) -> npt.NDArray[np.bool_]:
+        """Return whether a robot can be on each piece: False where all of it overlaps one and the same wall of the environment."""
+        return self._clearance.of_parts(self.walls, states.walls, states.lower[:, 0], states.upper[:, 0])
 
     def _arrived(self, states: RaySet) -> RaySet:
         """Return the pieces to which the robot can have come from where it was at the start."""
@@ -250,7 +270,7 @@ class RayModel(Model[RaySet, None, int]):
         wall = table[states.walls]
         part, heading = Boxes.column(states.lower[:, 0], states.upper[:, 0]), Boxes.column(states.lower[:, 1], states.upper[:, 1])
         way = Boxes.column(near, far)
-        margin = self.walls.margin
+        margin = self.walls.margin + self.walls.bulge[states.walls]
         bounds = []
         for side, wave in ((0, cos), (1, sin)):
             moved = part * wall[:, 2 + side : 3 + side] + wall[:, side : 1 + side] + way * wave(heading)

@@ -84,14 +84,12 @@ def build(
     if rays or bounds != ExecutionBounds():
         if (cell, rule, corner, most_states) != (None, "centre", "segment", 2**24):
             raise ConfigError("--cell, --rule, --corner and --most-states are for filters of cells; leave them out with --rays or an error")
-        if len(loaded) > 1 or number(radius, "--radius") != 0:
-            raise ConfigError(
-                "a filter with --rays or errors is for a point in one environment; give one environment, and for a disk the polygons in "
-                "which its centre can be, without --radius"
-            )
+        if len(loaded) > 1:
+            raise ConfigError("a filter with --rays or errors is for one environment; give one, or build a filter for each")
         goal = read_goal(rooms or [], within)
         robot = number(angle, "--angle"), number(step or "1/4", "--step"), bounds
-        _build_pieces(loaded, robot, number("1/4" if part is None else part, "--part"), headings or _HEADINGS, goal, out, as_json)
+        grid = number("1/4" if part is None else part, "--part"), headings or _HEADINGS, number(radius, "--radius")
+        _build_pieces(loaded, robot, grid, goal, out, as_json)
         return
     if rooms or within is not None or part is not None:
         raise ConfigError("--room, --within and --part are for robots with real geometry; give --rays or an error, too")
@@ -110,20 +108,22 @@ def build(
 def _build_pieces(
     loaded: "dict[str, Environment]",
     robot: "tuple[Fraction, Fraction, ExecutionBounds]",
-    part: "Fraction",
-    headings: int,
+    grid: "tuple[Fraction, int, Fraction]",
     goal: "Goal",
     out: Path,
     as_json: bool,
 ) -> None:
-    """Build the filter of a robot with real geometry: its bouncing angle, its step and the bounds of its errors."""
+    """Build the filter of a robot with real geometry.
+
+    The robot is its bouncing angle, its step and the bounds of its errors; the grid the width of parts, the headings and the radius.
+    """
     from ial.bouncing.filters.filter_file import write_filter
     from ial.bouncing.filters.piece_filter import PieceFilter
     from ial.bouncing.rays.piece_map import PieceMap
     from ial.cli.bounce.piece_report import about, lines
 
     (name, environment) = next(iter(loaded.items()))
-    made = PieceFilter(PieceMap.of(environment, *robot, part, headings), name, *robot, goal)
+    made = PieceFilter(PieceMap.of(environment, *robot, *grid), name, *robot, goal, grid[-1])
     write_filter(made, out)
     record = about(made)
     if as_json:

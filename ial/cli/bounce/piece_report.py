@@ -14,6 +14,7 @@ def about(made: PieceFilter) -> dict[str, Any]:
         "environment": made.name,
         "bounce_deg": float(made.bounce_deg),
         "step_m": float(made.step_m),
+        "radius_m": float(made.radius_m),
         "turn_error_deg": float(bounds.turn_deg),
         "step_error": float(bounds.step),
         "count_error": bounds.count,
@@ -34,8 +35,9 @@ def lines(record: Mapping[str, Any]) -> Iterator[str]:
         f"{record['environment']}: {record['pieces']} pieces ({record['parts']} parts of walls, {record['headings']} headings), "
         f"{record['arcs']} arcs"
     )
+    robot = f"a disk of radius {record['radius_m']:g} m" if record["radius_m"] else "a point"
     yield (
-        f"a point with real geometry; turns of {record['bounce_deg']:g}° ± {record['turn_error_deg']:g}°, "
+        f"{robot} with real geometry; turns of {record['bounce_deg']:g}° ± {record['turn_error_deg']:g}°, "
         f"steps of {record['step_m']:g} m ± {100 * record['step_error']:g} %, counts ± {record['count_error']}"
     )
     where = f"in {' or '.join(record['rooms'])}" if record["rooms"] else f"within {record['within_m']:g} m"

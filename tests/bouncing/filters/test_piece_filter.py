@@ -1,3 +1,4 @@
+from collections import Counter
 from fractions import Fraction
 
 import numpy as np
@@ -9,6 +10,7 @@ from ial.bouncing.filters.piece_filter import PieceFilter
 from ial.bouncing.rays.piece_map import PieceMap
 from ial.bouncing.rays.piece_model import PieceModel, PieceSet
 from ial.bouncing.rays.real_robot import RealRobot
+from tests.bouncing import disk_truth
 from tests.bouncing.judged_runs import WORLDS
 from tests.bouncing.rays.test_real_robot import ROOM
 
@@ -59,3 +61,12 @@ def test_a_robot_with_errors_is_never_told_to_be_in_another_room() -> None:
                 assert (x <= 5) if name == "left" else (x >= 5)
                 localized[name] += 1
     assert min(localized.values()) > 50
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("world", "radius"), [("hall", Fraction(1, 2)), ("pillars", Fraction(2, 5)), ("polygon 7", Fraction(1, 5))])
+def test_a_disk_with_errors_is_localized_and_never_told_to_be_elsewhere(world: str, radius: Fraction) -> None:
+    made = disk_truth.filter_of(world, radius)
+    outcomes = Counter(disk_truth.judge(made, seed) for seed in range(25))
+    assert set(outcomes) <= {"localized", "not localized"}
+    assert outcomes["localized"] >= 10

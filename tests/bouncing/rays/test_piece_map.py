@@ -6,9 +6,10 @@ import pytest
 from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.rays.piece_map import PieceMap
 from ial.bouncing.rays.ray_model import RayModel
-from ial.errors import ConfigError, FilterError
+from ial.errors import ConfigError, FilterError, MapError
 from ial.maps.polygons.environment import Environment
 from ial.maps.polygons.polygon import Polygon
+from tests.bouncing.disk_truth import follow_pieces
 from tests.bouncing.piece_truth import follow
 from tests.bouncing.rays.test_real_robot import ROOM, ring
 
@@ -19,6 +20,27 @@ NONE = ExecutionBounds()
 @pytest.mark.parametrize("first", range(0, 120, 12))
 def test_a_robot_with_real_geometry_is_never_lost(first: int) -> None:
     assert sum(follow(seed).losses for seed in range(first, first + 12)) == 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", range(0, 96, 12))
+def test_a_disk_is_never_lost(first: int) -> None:
+    assert sum(follow_pieces(seed).losses for seed in range(first, first + 12)) == 0
+
+
+def test_a_disk_is_never_where_it_does_not_fit() -> None:
+    """A corridor of 1 m between two rooms: a disk of radius 0.8 m cannot pass it, one of 0.4 m can."""
+    rooms = Environment((Polygon(ring((0, 0), (4, 0), (4, 1), (7, 1), (7, 0), (11, 0), (11, 4), (7, 4), (7, 2), (4, 2), (4, 4), (0, 4))),))
+    for radius, passes in ((Fraction(2, 5), True), (Fraction(4, 5), False)):
+        made = PieceMap.of(rooms, Fraction(100), Fraction(1, 4), NONE, Fraction(1, 4), 72, radius)
+        standing = np.flatnonzero(made.longest >= 0) % made.parts.sum()
+        x0, x1 = made.boxes_mm[:, 0] / 1000 - float(radius), made.boxes_mm[:, 2] / 1000 - float(radius)
+        in_corridor = (x0[standing] > 4.3) & (x1[standing] < 6.7)
+        assert in_corridor.any() == passes
+        begins, left = np.repeat(np.arange(len(made)), np.diff(made.starts)) % made.parts.sum(), x1 < 4.3
+        assert (left[begins] & ~left[made.ends]).any() == passes
+    with pytest.raises(MapError, match="radius 3 m fits nowhere"):
+        PieceMap.of(rooms, Fraction(100), Fraction(1, 4), NONE, Fraction(1, 4), 72, Fraction(3))
 
 
 def test_many_walls_are_no_reason_to_refuse() -> None:
@@ -39,6 +61,7 @@ def test_many_walls_are_no_reason_to_refuse() -> None:
         ({"headings": 31}, ConfigError, "31 intervals of headings are too wide"),
         ({"part_m": Fraction(1, 10**6)}, FilterError, "at most 1048576"),
         ({"step_m": Fraction(0)}, ConfigError, "step is 0 m"),
+        ({"radius_m": Fraction(-1)}, ConfigError, "radius of the robot is -1 m"),
     ],
 )
 def test_what_cannot_be_meant_is_refused(change: dict[str, object], error: type[Exception], message: str) -> None:

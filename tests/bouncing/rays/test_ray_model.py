@@ -14,6 +14,7 @@ from ial.maps.polygons.environment import Environment
 from ial.maps.polygons.polygon import Polygon
 from ial.maps.polygons.walls import Walls
 from ial.membership import Rejection, SetMembershipFilter
+from tests.bouncing import disk_truth
 from tests.bouncing.exact_rays import DIGITS, ExactWalls, exact
 from tests.bouncing.rays.test_real_robot import PILLAR, ROOM, ring
 from tests.bouncing.truth import extent, follow, holds_leg, holds_place, random_environment
@@ -25,6 +26,12 @@ L_ROOM = Environment((Polygon(ring((0, 0), (9, 0), (9, 4), (5, 4), (5, 7), (0, 7
 @pytest.mark.parametrize("first", range(100_000, 100_240, 24))
 def test_a_robot_with_real_geometry_is_never_lost(first: int) -> None:
     assert sum(follow(seed, 3).losses for seed in range(first, first + 24)) == 0
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("first", range(200_000, 200_144, 24))
+def test_a_disk_is_never_lost(first: int) -> None:
+    assert sum(disk_truth.follow(seed, 3).losses for seed in range(first, first + 24)) == 0
 
 
 def localized(angle: Fraction, bounds: ExecutionBounds, told: ExecutionBounds, seed: int, legs: int = 14) -> tuple[int, int]:
@@ -64,6 +71,19 @@ def test_bumps_localize() -> None:
     boxes = model.places(states)
     assert (boxes.lower[:, 0] >= -1e-9).all()
     assert (boxes.upper[:, 0] <= 9 + 1e-9).all()
+
+
+def test_bumps_localize_a_disk() -> None:
+    model = RayModel(L_ROOM, Fraction(100), Fraction(1, 8), most_pieces=8000, radius_m=Fraction(1, 4))
+    states = model.universe()
+    everything = extent(model, states)
+    robot = RealRobot(L_ROOM, Fraction(100), Fraction(1, 8), Fraction(1, 4), seed=3)
+    for _ in range(20):
+        states = model.leg(states, len(list(robot.leg())) - 1)
+    assert extent(model, states) < 1e-2 * everything
+    assert holds_place(model, states, *robot.pose)
+    with pytest.raises(MapError, match="radius 4 m fits nowhere"):
+        RayModel(L_ROOM, Fraction(100), Fraction(1, 8), most_pieces=8000, radius_m=Fraction(4)).universe()
 
 
 def test_a_leg_is_the_same_as_its_steps() -> None:

@@ -8,14 +8,18 @@ import mpmath
 import numpy as np
 import pytest
 
+from ial.bouncing.execution_bounds import ExecutionBounds
+from ial.bouncing.rays.real_robot import RealRobot
 from ial.maps.polygons.environment import Environment
 from ial.maps.polygons.polygon import Polygon
 from ial.maps.polygons.ray_shooting import reaches, shoot, sort_out
 from ial.maps.polygons.walls import Walls
+from tests.bouncing.disk_truth import contacts, disk_in
 from tests.bouncing.exact_rays import DIGITS, ExactWalls, exact
 from tests.bouncing.truth import random_environment, star
 
 WORLDS = range(30)
+WIDE = 1e-9
 
 
 def environment(seed: int) -> Environment:
@@ -168,3 +172,45 @@ def test_headings_along_a_wall_lead_away_from_it_and_into_it(seed: int) -> None:
             assert away[2] > away[3], "none leads into the wall"
             assert into[0] > into[1], "all lead into the wall"
             assert into[2] <= into[3]
+
+
+def grazing(there: Environment, radius: Fraction, robot: RealRobot, chooser: Random) -> Fraction:
+    """A heading, as a part of a full turn, in which a disk nearly misses a corner, or just does."""
+    x, y, _ = map(float, robot.pose)
+    corner = chooser.choice([corner for polygon in there.polygons for ring in polygon.rings for corner in ring])
+    away = np.hypot(float(corner[0]) - x, float(corner[1]) - y)
+    beside = np.arcsin(min(float(radius) / max(away, 1e-6), 1.0)) * chooser.choice([-1, 1]) * (1.0 - 10.0 ** chooser.uniform(-6.0, -0.5))
+    return Fraction((np.arctan2(float(corner[1]) - y, float(corner[0]) - x) + beside) / (2.0 * np.pi))
+
+
+@pytest.mark.slow
+def test_what_a_disk_bumps_into_is_found_and_bounded_closely() -> None:
+    """From places where a disk has bumped, often past corners: what it bumps into next, by a simulation that knows of no edges."""
+    tried = on_arcs = sharp = 0
+    for seed in range(40):
+        chooser = Random(seed)
+        there, robot, radius = disk_in(seed, chooser, Fraction(chooser.randint(1, 35_999), 100), Fraction(1), ExecutionBounds())
+        walls = Walls.of(there, radius)
+        list(robot.leg())
+        for _ in range(40):
+            x, y, turn = robot.pose
+            if chooser.random() < 0.7:
+                turn = grazing(there, radius, robot, chooser)
+                robot = RealRobot(there, 360 * robot.bounce, Fraction(1), radius, start=(x, y, turn))
+            begins, heading = contacts(walls, x, y), 2.0 * np.pi * float(turn)
+            list(robot.leg())
+            ends, way = contacts(walls, *robot.pose[:2]), float(np.hypot(float(robot.pose[0] - x), float(robot.pose[1] - y)))
+            assert begins
+            if len(begins) > 1:
+                continue  # in a corner, or at the end of an arc
+            ((wall, part),) = begins
+            beam = (wall, (max(part - WIDE, 0.0), heading - WIDE), (min(part + WIDE, 1.0), heading + WIDE))
+            assert reach(walls, *beam) >= way - WIDE
+            hits = shot(walls, *beam, max(way - WIDE, 0.0), way + WIDE)
+            assert any(at == end and low - WIDE <= there <= high + WIDE for end, there in ends for at, low, high in hits)
+            tried += 1
+            on_arcs += any(walls.bulge[at] > 0.0 for at, _ in ends)
+            sharp += len({at for at, _, _ in shot(walls, *beam, 0.0, np.inf)}) <= 3
+    assert tried > 800
+    assert on_arcs > 200
+    assert sharp > 0.8 * tried

@@ -43,6 +43,8 @@ def test_what_is_known_of_a_wall_is_wrong_by_less_than_is_said(seed: int) -> Non
                 walls.lengths[at],
                 walls.angles[at],
                 walls.slants[at],
+                0.0,
+                0.0,
             ]
             assert abs(mpmath.atan2(exact(number[3]), exact(number[2])) - exactly.angle(at)) <= walls.slants[at]
             assert links.tolist() == [walls.after[at], walls.before[at], walls.bend[at]]
