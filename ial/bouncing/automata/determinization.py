@@ -1,32 +1,39 @@
 """`determinize`: from a labelled graph to its deterministic automaton."""
 
 import numpy as np
+import numpy.typing as npt
 
 from ial.bouncing.automata.automaton import IN_NO_CYCLE, Automaton, KnowledgeCycles
 from ial.bouncing.automata.cycle_walk import walk_cycles
 from ial.bouncing.automata.subset import TOO_MANY, construct, depth_of
 from ial.bouncing.automata.verification import compare_sets
 from ial.bouncing.cells.graph import MOST_PARTS, LabelledGraph
-from ial.errors import FilterError
+from ial.errors import ConfigError, FilterError
 
 MOST_STATES, LARGEST_LIMIT = 2**24, 2**30
 
 
-def determinize(graph: LabelledGraph, most_states: int = MOST_STATES, verify: bool = False) -> Automaton:
+def determinize(
+    graph: LabelledGraph, most_states: int = MOST_STATES, verify: bool = False, begins: npt.NDArray[np.int32] | None = None
+) -> Automaton:
     """Return the deterministic automaton of a graph, by subset construction.
 
     Parameters
     ----------
     graph
-        The cells and where they lead; the robot can start in any of them.
+        The cells and where they lead.
     most_states
         The number of states at which to give up, at most 2³⁰.
     verify
         Also compare the sets that all arcs lead to, element by element. Sets are otherwise recognized by 128 bits and their size, which
         confuses two of them with a probability below 10⁻²⁰ for as many states as fit into a memory.
+    begins
+        The vertices in which the robot can start, each once; any of them by default.
 
     Raises
     ------
+    ConfigError
+        If it can start nowhere.
     FilterError
         If there would be more states, or `verify` finds two sets that were confused.
     """
@@ -35,8 +42,11 @@ def determinize(graph: LabelledGraph, most_states: int = MOST_STATES, verify: bo
     if len(graph.starts) > MOST_PARTS + 1:
         raise FilterError(f"the graph has {len(graph.starts) - 1} environments; at most {MOST_PARTS} are supported")
     parts = np.repeat(np.arange(len(graph.starts) - 1, dtype=np.uint8), np.diff(graph.starts)) if many else np.empty(0, dtype=np.uint8)
+    begins = np.arange(len(graph), dtype=np.int32) if begins is None else begins
+    if not len(begins):
+        raise ConfigError("the robot can start in no configuration; check the region and the heading at the start")
     outcome, states, successors, counts, sums, cycles, anchors, starts, members = construct(
-        graph.arcs, none if graph.weights is None else graph.weights, parts, min(most_states, LARGEST_LIMIT)
+        graph.arcs, begins, none if graph.weights is None else graph.weights, parts, min(most_states, LARGEST_LIMIT)
     )
     if outcome == TOO_MANY:
         raise FilterError(
@@ -53,5 +63,5 @@ def determinize(graph: LabelledGraph, most_states: int = MOST_STATES, verify: bo
     knowledge = KnowledgeCycles(anchors, lengths, uncertainty[anchors], starts, members[: starts[-1]].copy())
     automaton = Automaton(graph, successors, sizes, uncertainty, environments, colours, knowledge, int(depth))
     if verify:
-        compare_sets(automaton)
+        compare_sets(automaton, begins)
     return automaton

@@ -109,13 +109,15 @@ def _collect(candidates, count, stamps, stamp, out, at, weights, parts):  # type
 
 
 @kernel
-def construct(arcs, weights, parts, most):  # type: ignore[no-untyped-def]
-    """Return everything about the deterministic automaton, its states in the order of a breadth-first search from all vertices.
+def construct(arcs, begins, weights, parts, most):  # type: ignore[no-untyped-def]
+    """Return everything about the deterministic automaton, its states in the order of a breadth-first search.
 
     Parameters
     ----------
     arcs
         As in `LabelledGraph`.
+    begins
+        The vertices in which the robot can start, int32, each once.
     weights, parts
         The weight and the environment of each vertex; of length 0 for one each, and for one environment.
     most
@@ -143,10 +145,9 @@ def construct(arcs, weights, parts, most):  # type: ignore[no-untyped-def]
     anchors, anchor_starts, members = np.empty(16, dtype=np.int32), np.empty(17, dtype=np.int64), np.empty(256, dtype=np.int32)
     anchor_starts[0] = 0
 
-    for vertex in range(count):
-        images[0, vertex] = vertex
-    end, sums[0, 0], sums[0, 1], sizes[0, 1], sums[0, 2] = _collect(images[0], count, stamps, -2, now, 0, weights, parts)
-    sizes[0, 0], parents[0], now_starts[0], now_starts[1] = count, 0, 0, count
+    images[0, : len(begins)] = begins
+    end, sums[0, 0], sums[0, 1], sizes[0, 1], sums[0, 2] = _collect(images[0], len(begins), stamps, -2, now, 0, weights, parts)
+    sizes[0, 0], parents[0], now_starts[0], now_starts[1] = end, 0, 0, end
     table[np.int64(sums[0, 0]) & (len(table) - 1)] = 0
     states, level_start, level_stop = np.int64(1), np.int64(0), np.int64(1)
     while level_start < level_stop:

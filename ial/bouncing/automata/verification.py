@@ -7,13 +7,15 @@ from ial.bouncing.automata.automaton import Automaton
 from ial.errors import FilterError
 
 
-def compare_sets(automaton: Automaton) -> None:
+def compare_sets(automaton: Automaton, begins: npt.NDArray[np.int32]) -> None:
     """Compare the image of the set of every state with the set of its successor, element by element.
 
     Parameters
     ----------
     automaton
         Its sets must fit into the memory all at once.
+    begins
+        The vertices in which the robot can start.
 
     Raises
     ------
@@ -22,7 +24,7 @@ def compare_sets(automaton: Automaton) -> None:
     """
     successors, labels = automaton.graph.successors, automaton.graph.labels
     sets: list[npt.NDArray[np.int32] | None] = [None] * len(automaton)
-    sets[0] = np.arange(len(automaton.graph), dtype=np.int32)
+    sets[0] = np.sort(begins)
     for state in range(len(automaton)):
         held = sets[state]
         if held is None or len(held) != automaton.sizes[state]:

@@ -19,6 +19,7 @@ from ial.bouncing.cells.corner import Corner, passed_cells
 from ial.bouncing.cells.graph import MOST_VERTICES, LabelledGraph
 from ial.bouncing.cells.heading_classes import HeadingClasses
 from ial.bouncing.cells.headings import Headings
+from ial.bouncing.start import Start
 from ial.contractors import threads
 from ial.contractors.kernels import kernel
 from ial.errors import ConfigError, MapError
@@ -135,6 +136,17 @@ class CellMap:
             raise ConfigError(f"row {row}, column {column}, heading {heading} is no configuration; give a free cell and a heading")
         before = np.count_nonzero(self.raster.free[:row]) + np.count_nonzero(self.raster.free[row, :column])
         return int(self.classes.of[heading]) * len(self.cells[0]) + int(before)
+
+    def beginnings(self, start: Start) -> IntArray:
+        """Return the vertices in which a robot can start, int32: of which the centre and one of the headings are possible."""
+        rows, columns = self.cells
+        places = [self.centre(row, column) for row, column in zip(rows.tolist(), columns.tolist(), strict=True)] if start.region else []
+        held = np.array([start.holds_place(x, y) for x, y in places]) if start.region else np.ones(len(rows), dtype=np.bool_)
+        facing = np.zeros(len(self.classes), dtype=np.bool_)
+        for heading in range(self.headings.count):
+            angle = self.headings.angle_deg(heading)
+            facing[self.classes.of[heading]] |= start.holds_heading(angle, angle)
+        return np.flatnonzero(facing[:, None] & held).astype(np.int32)
 
     def centre(self, row: int, column: int) -> tuple[Fraction, Fraction]:
         """Return the centre of a cell in the frame of the environment, in metres."""

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ial.bouncing.exports.archive import plain_archive as plain_archive
+    from ial.bouncing.exports.archive import plain_piece_archive as plain_piece_archive
     from ial.bouncing.exports.automata_lib import to_automata as to_automata
     from ial.bouncing.exports.c_source import c_header as c_header
     from ial.bouncing.exports.c_tables import CTables as CTables
@@ -36,7 +37,7 @@ else:
             "exported_filter": ("ExportedFilter",),
             "finite_automaton": ("FiniteAutomaton",),
             "jflap": ("jff_text", "read_jff"),
-            "archive": ("plain_archive",),
+            "archive": ("plain_archive", "plain_piece_archive"),
             "piece_source": ("PieceTables", "c_piece_header"),
             "verilog": ("memory_image", "verilog_module"),
         },

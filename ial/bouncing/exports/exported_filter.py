@@ -9,6 +9,7 @@ from ial.bouncing.filters.bounce_filter import BounceFilter
 from ial.bouncing.filters.robust_filter import RobustFilter
 from ial.bouncing.filters.setting import Setting
 from ial.bouncing.filters.state_places import StatePlaces
+from ial.bouncing.start import ANYWHERE
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +51,14 @@ class ExportedFilter:
             What `minimize` shall keep; None for the filter as it is.
         restart
             Whether the trap is left as the start is, see `FilterTable.restarting`.
+
+        Raises
+        ------
+        ConfigError
+            If it shall restart and knows of its start.
         """
+        if restart:
+            made.setting.check_restart()
         table = made.table if keep is None else minimize(made.table, keep)
         places = made.state_places() if keep is None else None
         kept = cls(table.restarting() if restart else table, places, made.setting, keep)
@@ -70,6 +78,8 @@ class ExportedFilter:
                 f"{self.bounds.count} steps in a count. A place is all of a cell, with headings half way to the next ones.",
                 *(f"Colour {number}: {_safe(name)}." for number, name in enumerate(self.rooms, 2)),
             ]
+        if setting.start != ANYWHERE:
+            lines.append("For a robot of whose start something is known: a region, or a heading.")
         lines += [
             f"{setting.headings.count} headings, of which number t is t * 360 / {setting.headings.count} degrees; a bump turns by "
             f"{setting.headings.turn} of them.",

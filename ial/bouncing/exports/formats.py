@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Literal, get_args
 
-from ial.bouncing.exports.archive import plain_archive
+from ial.bouncing.exports.archive import plain_archive, plain_piece_archive
 from ial.bouncing.exports.c_source import c_header
 from ial.bouncing.exports.csv_table import csv_text
 from ial.bouncing.exports.dot import dot_text
@@ -13,7 +13,7 @@ from ial.bouncing.exports.finite_automaton import FiniteAutomaton
 from ial.bouncing.exports.jflap import jff_text
 from ial.bouncing.exports.piece_source import PieceTables, c_piece_header
 from ial.bouncing.exports.verilog import memory_image, verilog_module
-from ial.bouncing.rays.piece_map import PieceMap
+from ial.bouncing.filters.piece_filter import PieceFilter
 from ial.errors import ConfigError
 from ial.whole_file import whole_files
 
@@ -116,17 +116,32 @@ def export(
     return files
 
 
-def export_pieces(pieces: PieceMap, path: str | Path, prefix: str = "bounce") -> PieceTables:
-    """Write a map of pieces of walls as a C header; return its tables.
+def export_pieces(made: PieceFilter, path: str | Path, form: Format = "c", prefix: str = "bounce") -> PieceTables:
+    """Write a filter of pieces of walls as a C header or plain arrays; return the tables of the header.
+
+    Parameters
+    ----------
+    made
+        The filter.
+    path
+        The file to write.
+    form
+        ``c`` or ``npz``.
+    prefix
+        What the names in C begin with.
 
     Raises
     ------
     ConfigError
-        If the prefix is no identifier.
+        If the form is another one, or the prefix is no identifier.
+    FilterError
+        As `c_piece_header`.
     OutputError
         If the file cannot be written.
     """
-    content = c_piece_header(pieces, prefix)
+    if form not in ("c", "npz"):
+        raise ConfigError("a filter of pieces of walls is no table; give --format c or npz")
+    content = c_piece_header(made.map, prefix, made.first).encode() if form == "c" else plain_piece_archive(made)
     with whole_files(path, what="the export") as (part,):
-        part.write_text(content, encoding="ascii")
-    return PieceTables.of(pieces, prefix)
+        part.write_bytes(content)
+    return PieceTables.of(made.map, prefix, made.first)

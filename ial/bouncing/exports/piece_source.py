@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 from ial.bouncing.exports.c_array import CArray, width_of
 from ial.bouncing.exports.identifier import check_identifier
+from ial.bouncing.rays.first_bump import FirstBumps
 from ial.bouncing.rays.piece_map import PieceMap
 from ial.errors import FilterError
 
@@ -50,7 +51,7 @@ typedef struct {{
     uint{mm}_t x0, y0, x1, y1;
 }} {p}_box_t;
 
-/* Forget everything: the robot is anywhere, in any heading, and has not bumped yet. */
+/* Begin: the robot {begins}, and has not bumped yet. */
 static inline void {p}_start({p}_filter *filter) {{
     uint{byte}_t i;
     for (i = 0; i < {P}_BYTES; i++) {{
@@ -74,13 +75,7 @@ static inline int {p}_update({p}_filter *filter, int bump) {{
     if (filter->arriving) {{
         any = filter->steps <= {longest_first}u;
         if (bump && any) {{
-            uint{piece}_t piece;
-            for (piece = 0; piece < {P}_PIECES; piece++) {{
-                if ({start_at} < {stop_at}) {{
-                    filter->held[piece >> 3] |= (uint8_t)(1u << (piece & 7u));
-                }}
-            }}
-        }}
+{first_bump}        }}
     }} else {{
         for (i = 0; i < {P}_BYTES; i++) {{
             filter->next[i] = 0;
@@ -178,6 +173,28 @@ static inline int {p}_box(const {p}_filter *filter, {p}_box_t *box) {{
 """
 
 
+# What a robot is in after its first bump: every piece that leads somewhere, or those of a table.
+_ANYWHERE = """\
+            uint{piece}_t piece;
+            for (piece = 0; piece < {P}_PIECES; piece++) {{
+                if ({start_at} < {stop_at}) {{
+                    filter->held[piece >> 3] |= (uint8_t)(1u << (piece & 7u));
+                }}
+            }}
+"""
+_STARTED = """\
+            uint32_t at;
+            any = 0;
+            for (at = 0; at < {first_count}u; at++) {{
+                if (filter->steps >= {first_least_at} && filter->steps <= {first_most_at}) {{
+                    const uint{piece}_t piece = {first_at};
+                    filter->held[piece >> 3] |= (uint8_t)(1u << (piece & 7u));
+                    any = 1;
+                }}
+            }}
+"""
+
+
 @dataclass(frozen=True, eq=False)
 class PieceTables:
     """The tables of a set filter in C, and how much memory they take.
@@ -194,8 +211,8 @@ class PieceTables:
     pieces: int
 
     @classmethod
-    def of(cls, map_: PieceMap, prefix: str) -> "PieceTables":
-        """Return the tables of a map.
+    def of(cls, map_: PieceMap, prefix: str, first: FirstBumps | None = None) -> "PieceTables":
+        """Return the tables of a map, and of what a robot is in after its first bump.
 
         Raises
         ------
@@ -215,6 +232,12 @@ class PieceTables:
             "x1": (x1, "the greatest x"),
             "y1": (y1, "the greatest y"),
         }
+        if first is not None:
+            values |= {
+                "first": (first.pieces, "in which pieces the robot can be after its first bump"),
+                "first_least": (first.least, "after how many steps, at least"),
+                "first_most": (first.most, "and at most"),
+            }
         return cls({name: CArray(f"{prefix}_{name}", array, comment) for name, (array, comment) in values.items()}, len(map_))
 
     @property
@@ -228,7 +251,7 @@ class PieceTables:
         return 2 * -(-self.pieces // 8) + 4
 
 
-def c_piece_header(map_: PieceMap, prefix: str = "bounce") -> str:
+def c_piece_header(map_: PieceMap, prefix: str = "bounce", first: FirstBumps | None = None) -> str:
     """Return the text of a header for C99 and C++11, which follows sets as `PieceModel` does.
 
     Parameters
@@ -237,6 +260,8 @@ def c_piece_header(map_: PieceMap, prefix: str = "bounce") -> str:
         The pieces and their arcs.
     prefix
         What all names in it begin with; those of macros in capitals.
+    first
+        Where the robot can be after its first bump, if something is known of its start.
 
     Raises
     ------
@@ -245,7 +270,7 @@ def c_piece_header(map_: PieceMap, prefix: str = "bounce") -> str:
     FilterError
         If a robot can make more steps between two bumps than fit into 16 bits.
     """
-    tables = PieceTables.of(map_, prefix)
+    tables = PieceTables.of(map_, prefix, first)
     arrays, count = tables.arrays, len(map_)
     if (longest := int(map_.longest.max(initial=0))) >= _MOST_STEPS:
         raise FilterError(f"there can be {longest} steps between two bumps, and the header counts up to {_MOST_STEPS}; use longer steps")
@@ -271,7 +296,8 @@ def c_piece_header(map_: PieceMap, prefix: str = "bounce") -> str:
         "arc": arrays["starts"].width,
         "heading": max(width_of(map_.headings), 16),
         "part": max(width_of(int(map_.parts.sum())), 16),
-        "longest_first": longest,
+        "longest_first": longest if first is None else int(first.most.max()),
+        "begins": "is anywhere, in any heading" if first is None else "is where it was said to start",
         "first_turn": first_turn,
         "last_turn": last_turn,
         "longest_at": arrays["longest"].element("piece"),
@@ -285,5 +311,8 @@ def c_piece_header(map_: PieceMap, prefix: str = "bounce") -> str:
         "x1_at": arrays["x1"].element("part"),
         "y1_at": arrays["y1"].element("part"),
     }
+    if first is not None:
+        words |= {f"{name}_at": arrays[name].element("at") for name in ("first", "first_least", "first_most")} | {"first_count": len(first)}
+    words["first_bump"] = (_ANYWHERE if first is None else _STARTED).format(**words)
     declared = [each.declaration(f"{prefix.upper()}_FLASH") for each in arrays.values()]
     return "\n".join([_HEADER.format(**words), *declared, _FUNCTIONS.format(**words)])

@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from fractions import Fraction
 
+import numpy as np
+
 from ial.bouncing.automata.determinization import MOST_STATES, determinize
 from ial.bouncing.automata.table import FilterTable
 from ial.bouncing.cells.cell_map import CellMap
@@ -12,6 +14,7 @@ from ial.bouncing.cells.headings import Headings
 from ial.bouncing.filters.bounce_filter import BounceFilter
 from ial.bouncing.filters.cycle_places import CyclePlaces
 from ial.bouncing.filters.setting import Setting
+from ial.bouncing.start import ANYWHERE, Start
 from ial.errors import ConfigError, MapError
 from ial.maps.polygons.environment import Environment
 from ial.maps.polygons.erosion import erode
@@ -92,6 +95,7 @@ def build_filter(
     rule: Rule = "centre",
     corner: Corner = "segment",
     most_states: int = MOST_STATES,
+    start: Start = ANYWHERE,
 ) -> BounceFilter:
     """Return the filter of a robot that is in one of several environments.
 
@@ -111,11 +115,13 @@ def build_filter(
         What a step must not touch, see `passed_cells`.
     most_states
         The number of states at which to give up.
+    start
+        What is known of the start, in each of the environments: the centre of the cell is in the region, and the heading is one of these.
 
     Raises
     ------
     ConfigError
-        If there is no environment, a number cannot be meant, or the width of a cell is not known.
+        If there is no environment, a number cannot be meant, the width of a cell is not known, or the robot can start nowhere.
     MapError
         If an environment has no free cell, or there would be too many.
     FilterError
@@ -123,6 +129,8 @@ def build_filter(
     """
     rasters = all_free_cells(environments, cell, radius, rule)
     maps = [CellMap(raster, headings, corner, merge=True) for raster in rasters.values()]
-    automaton = determinize(disjoint_union([each.graph for each in maps]), most_states)
-    setting = Setting.of_rasters(rasters, headings, radius, rule, corner)
+    graph = disjoint_union([each.graph for each in maps])
+    begins = [each.beginnings(start) + np.int32(first) for each, first in zip(maps, graph.starts, strict=False)]
+    automaton = determinize(graph, most_states, begins=np.concatenate(begins))
+    setting = Setting.of_rasters(rasters, headings, radius, rule, corner, start=start)
     return BounceFilter(FilterTable.of(automaton), CyclePlaces.of(automaton, maps), setting)

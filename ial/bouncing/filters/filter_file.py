@@ -20,6 +20,7 @@ from ial.bouncing.filters.piece_filter import PieceFilter
 from ial.bouncing.filters.robust_filter import RobustFilter
 from ial.bouncing.filters.setting import Setting
 from ial.bouncing.filters.state_places import StatePlaces
+from ial.bouncing.rays.first_bump import FirstBumps
 from ial.bouncing.rays.piece_map import PieceMap
 from ial.errors import FilterError, IalError
 from ial.maps.polygons.walls import Walls
@@ -38,7 +39,8 @@ _WALLS: dict[str, type[np.generic]] = {
     **dict.fromkeys(("after", "before", "bend"), np.int32),
 }
 _ARCS: dict[str, type[np.generic]] = {"parts": np.int64, "starts": np.int64, "ends": np.int32, "least": np.int32, "most": np.int32}
-_ARRAYS = {form: _TABLE | places for form, places in _PLACES.items()} | {_PIECES: _WALLS | _ARCS}
+_FIRST: dict[str, type[np.generic]] = dict.fromkeys(("first_pieces", "first_least", "first_most"), np.int32)
+_ARRAYS = {form: _TABLE | places for form, places in _PLACES.items()} | {_PIECES: _WALLS | _ARCS | _FIRST}
 Filter = BounceFilter | RobustFilter | PieceFilter
 Arrays = dict[str, npt.NDArray[Any]]
 
@@ -62,6 +64,9 @@ def write_filter(made: Filter, path: str | Path) -> None:
     if isinstance(made, PieceFilter):
         form, setting = _PIECES, _piece_record(made)
         arrays = {name: getattr(made.map.walls, name) for name in _WALLS} | {name: getattr(made.map, name) for name in _ARCS}
+        arrays |= {
+            name: np.empty(0, np.int32) if made.first is None else getattr(made.first, name.removeprefix("first_")) for name in _FIRST
+        }
     else:
         form, setting = _EXACT, made.setting.record()
         if isinstance(made, RobustFilter):
@@ -135,4 +140,5 @@ def _piece_filter(record: dict[str, Any], arrays: Arrays) -> PieceFilter:
     pieces = PieceMap(walls=walls, headings=record["headings"], turns=(least, most), **{name: arrays[name] for name in _ARCS})
     angle, step = Fraction(record["bounce_deg"]), Fraction(record["step_m"])
     bounds, goal = ExecutionBounds.of_record(record["bounds"]), Goal.of_record(record["goal"])
-    return PieceFilter(pieces, record["name"], angle, step, bounds, goal, Fraction(record["radius_m"]))
+    first = FirstBumps(*(arrays[name] for name in _FIRST)) if len(arrays["first_pieces"]) else None
+    return PieceFilter(pieces, record["name"], angle, step, bounds, goal, Fraction(record["radius_m"]), first)

@@ -1,12 +1,15 @@
 """`PieceFilter`: the set filter of a robot with real geometry and bounded errors, and when it counts as localized."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.filters.goal import Goal
+from ial.bouncing.rays.first_bump import FirstBumps
+from ial.bouncing.rays.legs import Legs
 from ial.bouncing.rays.piece_map import PieceMap
-from ial.bouncing.rays.piece_model import NOT_BUMPED, PieceSet
+from ial.bouncing.rays.piece_model import NOT_BUMPED, PieceModel, PieceSet
+from ial.bouncing.start import ANYWHERE, Start
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,6 +30,8 @@ class PieceFilter:
         When the robot counts as localized.
     radius_m
         The radius of the robot, whose place is its centre; 0 for a point.
+    first
+        Where the robot can be after its first bump, if something is known of its start.
     """
 
     map: PieceMap
@@ -36,9 +41,32 @@ class PieceFilter:
     bounds: ExecutionBounds
     goal: Goal
     radius_m: Fraction = Fraction(0)
+    first: FirstBumps | None = None
 
     def __repr__(self) -> str:
         return f"<PieceFilter of {len(self.map)} pieces for {self.name}, {self.bounds}>"
+
+    @property
+    def model(self) -> PieceModel:
+        """The sets of a robot from its start on."""
+        return PieceModel(self.map, self.first)
+
+    @property
+    def anywhere(self) -> PieceModel:
+        """The sets of a robot that was carried elsewhere."""
+        return PieceModel(self.map)
+
+    def starting(self, start: Start) -> "PieceFilter":
+        """Return the filter of a robot of whose start something is known.
+
+        Raises
+        ------
+        ConfigError
+            If it can have started nowhere.
+        """
+        if start == ANYWHERE:
+            return replace(self, first=None)
+        return replace(self, first=FirstBumps.of(self.map, Legs(self.map.walls, self.bounce_deg, self.step_m, self.bounds), start))
 
     def box(self, states: PieceSet) -> tuple[float, float, float, float] | None:
         """Return a rectangle that holds the place of the last bump: least x and y, greatest x and y; None if there is none to tell."""

@@ -6,6 +6,8 @@ from typing import Any
 
 from ial.bouncing.cells.corner import Corner
 from ial.bouncing.cells.headings import Headings
+from ial.bouncing.start import ANYWHERE, Start
+from ial.errors import ConfigError
 from ial.maps.polygons.raster import Raster, Rule
 
 
@@ -31,6 +33,8 @@ class Setting:
         What a step must not touch, see `passed_cells`.
     merged
         Whether headings that cannot be told apart are one vertex.
+    start
+        What is known of where the robot starts.
     """
 
     names: tuple[str, ...]
@@ -41,11 +45,26 @@ class Setting:
     rule: Rule = "centre"
     corner: Corner = "segment"
     merged: bool = True
+    start: Start = ANYWHERE
 
     def centre(self, environment: int, row: int, column: int) -> tuple[Fraction, Fraction]:
         """Return the centre of a cell in the frame of its environment, in metres."""
         x, y = self.corners[environment]
         return x + (column + Fraction(1, 2)) * self.cell, y + (row + Fraction(1, 2)) * self.cell
+
+    def check_restart(self) -> None:
+        """Check that a robot which was rejected can begin anew.
+
+        Raises
+        ------
+        ConfigError
+            If something was known of its start, which no longer holds where it was carried.
+        """
+        if self.start != ANYWHERE:
+            raise ConfigError(
+                "the filter knows where the robot started, and after a rejection it may be anywhere: do not restart, or build a filter "
+                "without a region and headings"
+            )
 
     def record(self) -> dict[str, Any]:
         """Return plain values that JSON can hold; `of_record` gives the setting back."""
@@ -60,6 +79,7 @@ class Setting:
             "rule": self.rule,
             "corner": self.corner,
             "merged": self.merged,
+            "start": self.start.record(),
         }
 
     @classmethod
@@ -74,12 +94,20 @@ class Setting:
             record["rule"],
             record["corner"],
             record["merged"],
+            Start.of_record(record["start"]),
         )
 
     @classmethod
     def of_rasters(
-        cls, rasters: dict[str, Raster], headings: Headings, radius: Fraction, rule: Rule, corner: Corner, merged: bool = True
+        cls,
+        rasters: dict[str, Raster],
+        headings: Headings,
+        radius: Fraction,
+        rule: Rule,
+        corner: Corner,
+        merged: bool = True,
+        start: Start = ANYWHERE,
     ) -> "Setting":
         """Return the setting of environments that were divided into cells of one width."""
         cells = list(rasters.values())
-        return cls(tuple(rasters), tuple((each.x, each.y) for each in cells), cells[0].cell, headings, radius, rule, corner, merged)
+        return cls(tuple(rasters), tuple((each.x, each.y) for each in cells), cells[0].cell, headings, radius, rule, corner, merged, start)

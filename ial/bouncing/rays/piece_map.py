@@ -111,7 +111,7 @@ class PieceMap:
         turns = floor((bounce_deg - bounds.turn_deg) / part_deg), ceil((bounce_deg + bounds.turn_deg) / part_deg)
         # A leg is not longer than the environment, so after so many steps no robot is still on its way.
         longest = ceil(Fraction(model.walls.scale) / (step_m * (1 - bounds.step))) + bounds.count + 1
-        begins, ends, counts = _hits(model, _pieces(parts, headings), parts, longest)
+        begins, ends, counts = _hits(model, grid_pieces(parts, headings), parts, longest)
         keys, at = np.unique(begins * parts.sum() + ends, return_inverse=True)
         least, most = np.full(len(keys), np.iinfo(np.int32).max, dtype=np.int32), np.zeros(len(keys), dtype=np.int32)
         np.minimum.at(least, at.reshape(-1), counts)
@@ -159,7 +159,7 @@ class PieceMap:
         return x0.lower, y0.lower, x1.upper, y1.upper
 
 
-def _pieces(parts: npt.NDArray[np.int64], headings: int) -> RaySet:
+def grid_pieces(parts: npt.NDArray[np.int64], headings: int) -> RaySet:
     """Return all pieces; each holds its part of the wall and its headings, rounded outward."""
     walls = np.repeat(np.arange(len(parts), dtype=np.int32), parts)
     part = np.arange(len(walls)) - np.repeat(np.cumsum(parts) - parts, parts)
@@ -174,7 +174,6 @@ def _pieces(parts: npt.NDArray[np.int64], headings: int) -> RaySet:
 
 def _hits(model: RayModel, pieces: RaySet, parts: npt.NDArray[np.int64], longest: int) -> tuple[npt.NDArray[np.int64], ...]:
     """Return which parts robots can touch at a bump that left from which piece, and after how many steps; repeats are possible."""
-    first_part = np.cumsum(parts) - parts
     standing = model.may_stand(pieces)
     if not standing.any():
         raise MapError(f"a robot of radius {float(model.radius_m):g} m fits nowhere in the environment; check both")
@@ -184,18 +183,23 @@ def _hits(model: RayModel, pieces: RaySet, parts: npt.NDArray[np.int64], longest
     for count in range(longest):
         steps = np.full(len(pieces), count, dtype=np.int32)
         states = RaySet(pieces.walls, pieces.lower, pieces.upper, steps, pieces.arriving, reach)
-        leaving = np.flatnonzero(standing & (reach >= model.ways(states)[0]))
+        leaving = np.flatnonzero(standing & (reach >= model.legs.ways(states)[0]))
         pieces_of, hit = model.hits(states.only(leaving))
-        per = parts[hit.walls].astype(np.float64)
-        # The ends are parts of 1: rounding them and the products changes the product by less than this part of the number of parts.
-        first = np.clip(np.floor(hit.lower[:, 0] * per - ROUNDINGS * per), 0.0, per - 1.0).astype(np.int64)
-        last = np.clip(np.ceil(hit.upper[:, 0] * per + ROUNDINGS * per) - 1.0, first, per - 1.0).astype(np.int64)
-        many = last - first + 1
-        rows = np.repeat(np.arange(len(many)), many)
-        further = np.arange(len(rows)) - np.repeat(np.cumsum(many) - many, many)
-        to = first_part[hit.walls[rows]] + first[rows] + further
+        rows, to = part_numbers(hit, parts)
         kept = standing[to]  # whether a robot can stand there is the same in all headings
         begins.append(leaving[pieces_of[rows[kept]]])
         ends.append(to[kept])
         counts.append(np.full(len(to[kept]), count, dtype=np.int64))
     return np.concatenate(begins), np.concatenate(ends), np.concatenate(counts)
+
+
+def part_numbers(states: RaySet, parts: npt.NDArray[np.int64]) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """Return the parts of walls that pieces of walls reach into: which piece, and the number of the part, for each pair."""
+    per = parts[states.walls].astype(np.float64)
+    # The ends are parts of 1: rounding them and the products changes the product by less than this part of the number of parts.
+    first = np.clip(np.floor(states.lower[:, 0] * per - ROUNDINGS * per), 0.0, per - 1.0).astype(np.int64)
+    last = np.clip(np.ceil(states.upper[:, 0] * per + ROUNDINGS * per) - 1.0, first, per - 1.0).astype(np.int64)
+    many = last - first + 1
+    rows = np.repeat(np.arange(len(many)), many)
+    further = np.arange(len(rows)) - np.repeat(np.cumsum(many) - many, many)
+    return rows, (np.cumsum(parts) - parts)[states.walls[rows]] + first[rows] + further

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ial.bouncing.rays.first_bump import FirstBumps
 from ial.bouncing.rays.piece_map import PieceMap
 from ial.contractors.kernels import kernel
 from ial.membership.model import Model
@@ -54,6 +55,8 @@ class PieceModel(Model[PieceSet, None, int]):
     ----------
     map_
         The pieces, and where robots come to from them.
+    first
+        Where the robot can be after its first bump; on any piece on which it can stand, if that is left out.
 
     Examples
     --------
@@ -70,15 +73,15 @@ class PieceModel(Model[PieceSet, None, int]):
     504
     """
 
-    def __init__(self, map_: PieceMap) -> None:
-        self.map = map_
-        self._longest_first = int(map_.longest.max(initial=0))
+    def __init__(self, map_: PieceMap, first: FirstBumps | None = None) -> None:
+        self.map, self.first = map_, first
+        self._longest_first = int((map_.longest if first is None else first.most).max(initial=0))
 
     def __repr__(self) -> str:
         return f"<PieceModel on {self.map!r}>"
 
     def universe(self) -> PieceSet:
-        """Return a robot that has not bumped yet, anywhere in any heading."""
+        """Return a robot that has not bumped yet."""
         return PieceSet(np.array([NOT_BUMPED], dtype=np.int32), np.zeros(1, dtype=np.int32))
 
     def predict(self, states: PieceSet, motion: None) -> PieceSet:
@@ -109,15 +112,15 @@ class PieceModel(Model[PieceSet, None, int]):
         return PieceSet(states.pieces[steps <= longest], steps[steps <= longest])
 
     def _bumped(self, states: PieceSet) -> PieceSet:
-        """Return the pieces that the robot leaves from after a bump now.
-
-        After the first bump, of which only the end is known, these are all but those on which no robot can stand.
-        """
+        """Return the pieces that the robot leaves from after a bump now."""
         map_ = self.map
-        if ((states.pieces == NOT_BUMPED) & (states.steps <= self._longest_first)).any():
-            return self._leaving(np.flatnonzero(map_.longest >= 0).astype(np.int32))
-        known = states.pieces != NOT_BUMPED
         marked = np.zeros(len(map_), dtype=np.bool_)
+        for steps in states.steps[states.pieces == NOT_BUMPED].tolist():
+            if self.first is None:
+                marked |= (map_.longest >= 0) & (steps <= self._longest_first)
+            else:
+                marked[self.first.pieces[(self.first.least <= steps) & (steps <= self.first.most)]] = True
+        known = states.pieces != NOT_BUMPED
         arcs = map_.starts, map_.ends, map_.least, map_.most
         _mark(*arcs, states.pieces[known], states.steps[known], int(map_.parts.sum()), map_.headings, *map_.turns, marked)
         return self._leaving(np.flatnonzero(marked).astype(np.int32))

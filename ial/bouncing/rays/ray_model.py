@@ -10,19 +10,19 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.bouncing.execution_bounds import ExecutionBounds
+from ial.bouncing.rays.legs import Legs, radians
 from ial.bouncing.rays.ray_grid import coarsened, least_pieces
 from ial.bouncing.rays.ray_set import RaySet
-from ial.contractors import cos, sin
+from ial.bouncing.start import Start
 from ial.contractors.boxes import Boxes
 from ial.contractors.intervals.interval import Interval
-from ial.contractors.intervals.trigonometric import TWO_PI_LOWER, TWO_PI_UPPER
-from ial.contractors.margins import ABOVE, BELOW
+from ial.contractors.intervals.trigonometric import TWO_PI_UPPER
 from ial.contractors.rounding import check_rounding
 from ial.errors import ConfigError, MapError
 from ial.maps.polygons.clearance import Clearance
 from ial.maps.polygons.environment import Environment
 from ial.maps.polygons.ray_shooting import reaches, shoot
-from ial.maps.polygons.walls import FloatArray, Walls
+from ial.maps.polygons.walls import Walls
 from ial.membership.model import Model
 
 MOST_PIECES = 20_000
@@ -91,31 +91,17 @@ class RayModel(Model[RaySet, None, int]):
     ) -> None:
         check_rounding()
         self.walls = Walls.of(environment, radius_m)
+        self.legs = Legs(self.walls, bounce_deg, step_m, bounds)
         self._clearance = Clearance.of(environment, radius_m)
-        if step_m <= 0:
-            raise ConfigError(f"the step is {float(step_m):g} m; give a length greater than 0")
-        if bounce_deg % _FULL_DEG == 0:
-            raise ConfigError("the bouncing angle is a multiple of 360°, so a robot at a wall would stay there; give another angle")
-        if any(low > high for low, high in headings_deg):
-            raise ConfigError("an interval of headings ends before it begins; give (from, to) in degrees, counter-clockwise")
-        if region is not None and (region[0] > region[2] or region[1] > region[3]):
-            raise ConfigError("the region at the start is empty; give the least x and y, then the greatest")
+        self._start = Start(region, headings_deg)
         least = least_pieces(self.walls)
         if most_pieces < least:
             raise ConfigError(f"sets of at most {most_pieces} pieces are too coarse for {len(self.walls)} walls; allow at least {least}")
-        self.bounds, self.most_pieces, self.radius_m = bounds, most_pieces, radius_m
-        shorter, longer = Interval(step_m * (1 - bounds.step)), Interval(step_m * (1 + bounds.step))
-        self._step = shorter.lower, longer.upper
-        turn = bounce_deg % _FULL_DEG  # whole turns would only be rounded
-        self._turn = radians(turn - bounds.turn_deg, turn + bounds.turn_deg)
+        self.most_pieces, self.radius_m = most_pieces, radius_m
         self._headings = [radians(low % _FULL_DEG, low % _FULL_DEG + min(high - low, Fraction(_FULL_DEG))) for low, high in headings_deg]
-        origin = self.walls.origin
-        self._region = None
-        if region is not None:
-            self._region = [Interval(region[side] - origin[side], region[side + 2] - origin[side]) for side in (0, 1)]
 
     def __repr__(self) -> str:
-        return f"<RayModel among {len(self.walls)} walls, {self.bounds}>"
+        return f"<RayModel among {len(self.walls)} walls, {self.legs.bounds}>"
 
     def universe(self) -> RaySet:
         """Return every piece of wall that the robot can come to first, from wherever it may be, in a heading it may have.
@@ -158,25 +144,18 @@ class RayModel(Model[RaySet, None, int]):
         """Return whether nothing is left: the robot is in no place of the environment."""
         return len(states) == 0
 
-    def ways(self, states: RaySet) -> tuple[FloatArray, FloatArray]:
-        """Return how far the robot has driven at least, when it bumps now, and at most, for each piece, in metres."""
-        least = np.maximum(states.steps - self.bounds.count, 0).astype(np.float64) * self._step[0]
-        most = (states.steps + (self.bounds.count + 1)).astype(np.float64) * self._step[1]
-        return least * BELOW, most * ABOVE
-
     def _stepped(self, states: RaySet) -> RaySet:
         more = RaySet(states.walls, states.lower, states.upper, (states.steps + 1).astype(np.int32), states.arriving, states.reach)
-        kept = more.reach >= self.ways(more)[0]
+        kept = more.reach >= self.legs.ways(more)[0]
         return more if kept.all() else more.only(kept)
 
     def _bumped(self, states: RaySet) -> RaySet:
         """Return the pieces of walls that the robot leaves from after a bump now."""
         check_rounding()
-        arrived, leaving = self._arrived(states.only(states.arriving)), states.only(~states.arriving)
-        hit = self._with_corners(RaySet.joined(arrived, self._shot(leaving)[1]))[1]
-        count = len(hit)
-        turn = Boxes.column(np.full(count, self._turn[0]), np.full(count, self._turn[1]))
-        turned = Boxes.column(hit.lower[:, 1], hit.upper[:, 1]) + turn
+        arriving, leaving = states.only(states.arriving), states.only(~states.arriving)
+        arrived = arriving.only(self.legs.can_have_come(arriving, self._start))
+        hit = self.legs.with_corners(RaySet.joined(arrived, self._shot(leaving)[1]))[1]
+        count, turned = len(hit), self.legs.turned(hit)
         lower, upper = np.column_stack([hit.lower[:, 0], turned.lower]), np.column_stack([hit.upper[:, 0], turned.upper])
         left = RaySet(hit.walls, lower, upper, np.zeros(count, dtype=np.int32), np.zeros(count, dtype=np.bool_), np.full(count, np.inf))
         return self._prepared(left)
@@ -194,28 +173,15 @@ class RayModel(Model[RaySet, None, int]):
         """Return whether a robot can be on each piece: False where all of it overlaps one and the same wall of the environment."""
         return self._clearance.of_parts(self.walls, states.walls, states.lower[:, 0], states.upper[:, 0])
 
-    def _arrived(self, states: RaySet) -> RaySet:
-        """Return the pieces to which the robot can have come from where it was at the start."""
-        least, most = self.ways(states)
-        states = states.only(states.reach >= least)
-        if self._region is None or not len(states):
-            return states
-        least, most = self.ways(states)
-        places = self._moved(states, -np.minimum(most, states.reach), -least)
-        inside = np.ones(len(states), dtype=np.bool_)
-        for side, known in enumerate(self._region):
-            inside &= (places.upper[:, side] >= known.lower) & (places.lower[:, side] <= known.upper)
-        return states.only(inside)
-
     def hits(self, states: RaySet) -> tuple[npt.NDArray[np.int64], RaySet]:
         """Return which piece each robot has left from that bumps now, and the pieces of walls that they touch before they turn."""
         begins, shot = self._shot(states)
-        rows, touched = self._with_corners(shot)
+        rows, touched = self.legs.with_corners(shot)
         return begins[rows], touched
 
     def _shot(self, states: RaySet) -> tuple[npt.NDArray[np.int64], RaySet]:
         table, links = self.walls.table
-        least, most = self.ways(states)
+        least, most = self.legs.ways(states)
         begin, parts, begins = 0, [], [np.empty(0, dtype=np.int64)]
         room = _ROOM * len(states) + len(self.walls) + 1
         while begin < len(states):
@@ -229,22 +195,6 @@ class RayModel(Model[RaySet, None, int]):
             parts.append(RaySet(walls[:count], lower[:count], upper[:count], kept.steps, kept.arriving, kept.reach))
         return np.concatenate(begins), RaySet.joined(states.only(np.zeros(len(states), dtype=np.bool_)), *parts)
 
-    def _with_corners(self, states: RaySet) -> tuple[npt.NDArray[np.int64], RaySet]:
-        """Return the set with corners that were touched on both their walls: from a reflex corner, either lets the robot go on.
-
-        Before it, which piece each of its pieces was.
-        """
-        _, links = self.walls.table
-        starting = np.flatnonzero((states.lower[:, 0] <= 0.0) & (links[states.walls, 2] < 0))
-        ending = np.flatnonzero((states.upper[:, 0] >= 1.0) & (links[links[states.walls, 0], 2] < 0))
-        sets = [states]
-        for rows, there, link in ((starting, 1.0, 1), (ending, 0.0, 0)):
-            part = states.only(rows)
-            lower, upper = part.lower.copy(), part.upper.copy()
-            lower[:, 0] = upper[:, 0] = there
-            sets.append(RaySet(links[part.walls, link], lower, upper, part.steps, part.arriving, part.reach))
-        return np.concatenate([np.arange(len(states)), starting, ending]), RaySet.joined(*sets)
-
     def places(self, states: RaySet) -> Boxes:
         """Return where the robot can be now: boxes of x, y in the frame of the environment and the heading in radians.
 
@@ -255,30 +205,9 @@ class RayModel(Model[RaySet, None, int]):
         """
         if states.arriving.any():
             raise ConfigError("the robot has not bumped yet, so it can be anywhere that its region allows; ask after the first bump")
-        least = np.maximum(states.steps - self.bounds.count, 0) * self._step[0]
-        most = np.minimum((states.steps + self.bounds.count) * self._step[1], states.reach)
-        moved = self._moved(states, least * BELOW, np.maximum(most, least) * ABOVE)
+        moved = self.legs.moved(states, *self.legs.driven(states))
         shift = Boxes.of([Interval(self.walls.origin[0]), Interval(self.walls.origin[1])])
         there = Boxes(moved.lower[:, :2], moved.upper[:, :2]) + Boxes(
             np.repeat(shift.lower, len(states), axis=0), np.repeat(shift.upper, len(states), axis=0)
         )
         return Boxes(np.concatenate([there.lower, states.lower[:, 1:]], axis=1), np.concatenate([there.upper, states.upper[:, 1:]], axis=1))
-
-    def _moved(self, states: RaySet, near: npt.ArrayLike, far: npt.ArrayLike) -> Boxes:
-        """Return boxes of x and y, counted from the origin, of robots that moved along their headings by so much from their pieces."""
-        table, _ = self.walls.table
-        wall = table[states.walls]
-        part, heading = Boxes.column(states.lower[:, 0], states.upper[:, 0]), Boxes.column(states.lower[:, 1], states.upper[:, 1])
-        way = Boxes.column(near, far)
-        margin = self.walls.margin + self.walls.bulge[states.walls]
-        bounds = []
-        for side, wave in ((0, cos), (1, sin)):
-            moved = part * wall[:, 2 + side : 3 + side] + wall[:, side : 1 + side] + way * wave(heading)
-            bounds.append((moved.lower[:, 0] - margin, moved.upper[:, 0] + margin))
-        return Boxes(np.stack([low for low, _ in bounds], axis=1), np.stack([high for _, high in bounds], axis=1))
-
-
-def radians(low_deg: Fraction, high_deg: Fraction) -> tuple[float, float]:
-    """Return bounds in radians of an interval of degrees."""
-    turn = Interval(TWO_PI_LOWER, TWO_PI_UPPER) * Interval(low_deg / _FULL_DEG, high_deg / _FULL_DEG)
-    return turn.lower, turn.upper

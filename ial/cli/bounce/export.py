@@ -39,10 +39,14 @@ def export(
     check_outputs(formats.files_of(out, form), [filter_path], overwrite)
     made = read_filter(filter_path)
     if isinstance(made, PieceFilter):
-        if form != "c" or minimize or restart:
-            raise ConfigError(f"{filter_path}: a filter of pieces of walls is no table; give --format c, without --minimize and --restart")
-        tables = formats.export_pieces(made.map, out, prefix)
+        if form not in ("c", "npz") or minimize or restart:
+            raise ConfigError(
+                f"{filter_path}: a filter of pieces of walls is no table; give --format c or npz, without --minimize and --restart"
+            )
+        tables = formats.export_pieces(made, out, form, prefix)
         say(f"{len(made.map)} pieces of walls in {shown(out)}")
+        if form == "npz":
+            return
         say(f"flash: {tables.flash_bytes:,} bytes")
         say(f"RAM: {tables.ram_bytes:,} bytes")
         return

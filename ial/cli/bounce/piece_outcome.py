@@ -4,12 +4,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from ial.bouncing.filters.piece_filter import PieceFilter
-from ial.bouncing.rays.piece_model import PieceModel
 
 
 def outcome(made: PieceFilter, observations: Iterable[int], restart: bool) -> dict[str, Any]:
     """Return what a stream tells, as plain values that JSON can hold; observations count from 1."""
-    model = PieceModel(made.map)
+    model = made.model
     states = model.universe()
     rejected, first, count = [], None, 0
     for count, observation in enumerate(observations, 1):
@@ -18,6 +17,7 @@ def outcome(made: PieceFilter, observations: Iterable[int], restart: bool) -> di
         states = model.step(states, None, observation)
         if model.empty(states):
             rejected.append(count)
+            model = made.anywhere if restart else model
             states = model.universe() if restart else states
         if first is None and made.is_localized(states):
             first = count

@@ -9,7 +9,7 @@ from ial.bouncing.filters.piece_filter import PieceFilter
 
 def about(made: PieceFilter) -> dict[str, Any]:
     """Return what a filter is, as plain values that JSON can hold."""
-    tables, bounds, goal = PieceTables.of(made.map, "bounce"), made.bounds, made.goal
+    tables, bounds, goal = PieceTables.of(made.map, "bounce", made.first), made.bounds, made.goal
     return {
         "environment": made.name,
         "bounce_deg": float(made.bounce_deg),

@@ -15,4 +15,4 @@ def test_a_wrong_arc_does_not_pass_verification() -> None:
     state = int(np.flatnonzero((wrong >= 0).all(axis=1))[3])
     wrong[state] = wrong[state, ::-1]
     with pytest.raises(FilterError, match=r"stands for another set|another size"):
-        compare_sets(replace(automaton, successors=wrong))
+        compare_sets(replace(automaton, successors=wrong), np.arange(len(automaton.graph), dtype=np.int32))

@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 
 from ial.bouncing.execution_bounds import ExecutionBounds
+from ial.bouncing.rays.legs import radians
 from ial.bouncing.rays.ray_grid import coarsened
-from ial.bouncing.rays.ray_model import RayModel, radians
+from ial.bouncing.rays.ray_model import RayModel
 from ial.bouncing.rays.ray_set import RaySet
 from ial.bouncing.rays.real_robot import RealRobot
 from ial.errors import ConfigError, MapError
@@ -123,7 +124,7 @@ def test_the_way_of_a_leg_lies_between_exact_bounds() -> None:
         start = model.leg(model.universe(), 1).only(np.arange(1))
         for count in range(200):
             states = RaySet(start.walls, start.lower, start.upper, np.array([count], np.int32), start.arriving, np.array([np.inf]))
-            ((least,), (most,)) = model.ways(states)
+            ((least,), (most,)) = model.legs.ways(states)
             assert Fraction(least) <= max(count - missed, 0) * step * (1 - error) <= Fraction(least) + Fraction(1, 10**9)
             assert Fraction(most) - Fraction(1, 10**9) <= (count + missed + 1) * step * (1 + error) <= Fraction(most)
 
