@@ -40,9 +40,11 @@ def test_the_true_way_is_what_the_filter_takes_a_count_to_mean() -> None:
 def test_bounds_of_a_filter_that_cover_too_little_are_refused() -> None:
     timing = BumpTiming(Fraction(3, 10), Fraction(0), Fraction(1), Fraction(1, 50))
     timing.check(Fraction(1, 4), ExecutionBounds(step=Fraction(1, 50), count=2))
-    with pytest.raises(ConfigError, match="counts up to 2 steps of 0.25 m wrong at 0.3 m/s, and the filter is for 1; .* --count-error 2"):
+    with pytest.raises(
+        ConfigError, match=r"counts up to 2 steps of 0\.25 m wrong at 0\.3 m/s, and the filter is for 1; .* --count-error 2"
+    ):
         timing.check(Fraction(1, 4), ExecutionBounds(step=Fraction(1, 50), count=1))
-    with pytest.raises(ConfigError, match="filter is for steps with an error of 0.01; build one with --step-error 1/50"):
+    with pytest.raises(ConfigError, match=r"filter is for steps with an error of 0\.01; build one with --step-error 1/50"):
         timing.check(Fraction(1, 4), ExecutionBounds(step=Fraction(1, 100), count=2))
 
 
@@ -72,7 +74,7 @@ def test_cells_are_counted_by_the_nearest_whole_number(time: str, clock: str, pa
 @pytest.mark.parametrize(("time", "clock", "part"), [("1.75", "0", "0"), ("2", "0.5", "0"), ("1.9", "0.4", "0"), ("20", "0", "0.03")])
 def test_cells_that_cannot_be_counted_for_certain_are_refused(time: str, clock: str, part: str) -> None:
     timing = BumpTiming(Fraction(1), Fraction(0), Fraction(clock), Fraction(part))
-    with pytest.raises(StreamError, match="line 2: a way of .* is no certain number of cells"):
+    with pytest.raises(StreamError, match=r"line 2: a way of .* is no certain number of cells"):
         timing.whole_steps(Fraction(time), Fraction(1, 2), "line 2")
 
 

@@ -18,15 +18,12 @@ from tests.bouncing.judged_runs import WORLDS
 from tests.bouncing.rays.test_real_robot import ROOM
 
 ANGLE, STEP, NONE = Fraction(100), Fraction(1, 4), ExecutionBounds()
-TIMING = BumpTiming(Fraction(1), Fraction(1))
+TIMING, HALF = BumpTiming(Fraction(1), Fraction(1)), Fraction(1, 2)
 
 
 @pytest.fixture(scope="module")
 def legs() -> Legs[object]:
     return legs_of(PieceFilter(PieceMap.of(ROOM, ANGLE, STEP, NONE, HALF, 36), "room", ANGLE, STEP, NONE, Goal(width=Fraction(5))), TIMING)
-
-
-HALF = Fraction(1, 2)
 
 
 def event(time: object, kind: EventKind = "bump") -> BumpEvent:
