@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import BinaryIO
@@ -53,8 +54,8 @@ class LogRun:
         IalError
             If it cannot be read or cannot be meant.
         """
-        with _opened(path) as file:
-            for _ in self._taken(_events(file, path)):
+        with log_events(path) as events:
+            for _ in self._taken(events):
                 pass
 
     def follow(self, path: Path, as_json: bool) -> None:
@@ -91,6 +92,19 @@ class LogRun:
                     "bouncing angle, the speed and the bounds of errors, or use the open world"
                 )
             yield event, rejected
+
+
+@contextmanager
+def log_events(path: Path) -> Iterator[Iterator[BumpEvent]]:
+    """Lend the events of a whole log: a file, or standard input if it is called ``-``.
+
+    Raises
+    ------
+    StreamError
+        If it cannot be read or cannot be meant.
+    """
+    with _opened(path) as file:
+        yield _events(file, path)
 
 
 def _is_input(path: Path) -> bool:
