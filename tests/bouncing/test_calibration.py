@@ -62,7 +62,9 @@ def test_a_run_that_no_bound_explains_is_refused() -> None:
     found = Calibration(HALL, ANGLE, STEP, TIMING)
     with pytest.raises(StreamError, match=r"line 2: no error of the speed up to 50% explains its first leg; check the place"):
         found.step_bound([KnownRun((Fraction(1), Fraction(1), Fraction(0)), (Fraction(60),), "line 2")])
-    with pytest.raises(StreamError, match=r"line 2: no error of turns up to 90° explains it with a speed error of 0\.02; give a larger one"):
+    with pytest.raises(
+        StreamError, match=r"line 2: no error of turns up to 90° explains it with a speed error of 0\.02; give a larger one"
+    ):
         found.turn_bound([KnownRun((Fraction(1), Fraction(1), Fraction(0)), (Fraction(80, 3), Fraction(60)), "line 2")], Fraction(1, 50))
     with pytest.raises(StreamError, match="far too long"):
         found.step_bound([KnownRun((Fraction(1), Fraction(1), Fraction(0)), (Fraction(10**9),), "line 2")])
