@@ -71,7 +71,9 @@ def test_cells_are_counted_by_the_nearest_whole_number(time: str, clock: str, pa
     assert timing.whole_steps(Fraction(time), Fraction(1, 2), "line 2") == count
 
 
-@pytest.mark.parametrize(("time", "clock", "part"), [("1.75", "0", "0"), ("2", "0.5", "0"), ("1.9", "0.4", "0"), ("20", "0", "0.03")])
+@pytest.mark.parametrize(
+    ("time", "clock", "part"), [("1.75", "0", "0"), ("2", "0.5", "0"), ("1.9", "0.4", "0"), ("20", "0", "0.03"), ("0.15", "0.4", "0")]
+)
 def test_cells_that_cannot_be_counted_for_certain_are_refused(time: str, clock: str, part: str) -> None:
     timing = BumpTiming(Fraction(1), Fraction(0), Fraction(clock), Fraction(part))
     with pytest.raises(StreamError, match=r"line 2: a way of .* is no certain number of cells"):

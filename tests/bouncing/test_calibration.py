@@ -19,11 +19,11 @@ TURN = Fraction(1)
 HALL = WORLDS["hall"]
 
 
-def run_of(environment: object, seed: int, steps: int = 120, off: Fraction = Fraction(0)) -> KnownRun:
-    """Let a robot with the errors above run from a start that it reports, wrong in x by so much."""
+def run_of(environment: object, seed: int, steps: int = 120, off: Fraction = Fraction(0), turned: Fraction = Fraction(0)) -> KnownRun:
+    """Let a robot with the errors above run from a start that it reports, wrong in x and in its heading by so much."""
     robot = RealRobot(environment, ANGLE, STEP, bounds=ExecutionBounds(turn_deg=TURN), seed=seed)  # type: ignore[arg-type]
     x, y, turn = robot.pose
-    place = (x + off, y, 360 * turn)
+    place = (x + off, y, 360 * turn + turned)
     (run,) = known_runs(simulated_log((x, y), islice(robot.run(), steps), TIMING, seed, place), TIMING)
     return run
 
@@ -32,9 +32,9 @@ def run_of(environment: object, seed: int, steps: int = 120, off: Fraction = Fra
 def test_the_bounds_that_a_robot_keeps_are_never_refuted() -> None:
     for seed in range(40):
         environment = random_environment(seed)
-        off = Fraction(seed % 3, 20)
-        found = Calibration(environment, ANGLE, STEP, TIMING, off, Fraction(seed % 2))
-        assert found.explains(run_of(environment, seed, 60, off), TIMING.speed_part, TURN)
+        off, turned = Fraction(seed % 3 - 1, 20), Fraction(seed // 3 % 3 - 1)
+        found = Calibration(environment, ANGLE, STEP, TIMING, abs(off), abs(turned))
+        assert found.explains(run_of(environment, seed, 60, off, turned), TIMING.speed_part, TURN)
 
 
 @pytest.mark.slow

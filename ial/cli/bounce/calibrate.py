@@ -94,7 +94,10 @@ def _lines(record: Mapping[str, Any]) -> Iterator[str]:
     yield f"speed error, from first legs: {_words(record['speed_error'], '.5f', '')}"
     yield f"turn error, at that speed error: {_words(record['turn_error_deg'], '.3f', '°')}"
     yield f"build with: {record['build']}"
-    yield "what is refuted is too small for certain; what explains these runs may still be too small for others: take long runs, and many"
+    yield (
+        "what is refuted is too small for certain, for turns as long as that speed error holds; what explains these runs may be too small "
+        "for others: take long runs, and many"
+    )
 
 
 def _words(bound: Mapping[str, float | None], digits: str, unit: str) -> str:
