@@ -58,6 +58,7 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
     },
     "a part that several files share, seen in what each of them does with it": {
         "bouncing/cells/test_groups.py": ["graph"],
+        "bouncing/test_bump_log.py": ["bump_event"],
         "bouncing/cells/test_noisy_map.py": ["../execution_bounds"],
         "bouncing/exports/test_c_source.py": ["exported_filter"],
         "bouncing/filters/test_bounce_filter.py": ["cycle_places", "setting"],
@@ -91,6 +92,7 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
         "study/test_failures.py": ["../results/lidar/failure_picture"],
     },
     "commands and what they print, tried as a user runs them": {
+        "cli/bounce/test_log_run.py": ["log_outcome"],
         "cli/lidar/test_answer_file.py": ["streaming"],
         "cli/lidar/test_bounds.py": ["bounds_report"],
         "cli/lidar/test_warm.py": ["../../lidar/warming"],

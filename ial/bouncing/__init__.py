@@ -13,6 +13,12 @@ if TYPE_CHECKING:
     from ial.bouncing.automata.set_automaton import SetAutomaton as SetAutomaton
     from ial.bouncing.automata.set_automaton import determinize_sets as determinize_sets
     from ial.bouncing.automata.table import FilterTable as FilterTable
+    from ial.bouncing.bump_event import BumpEvent as BumpEvent
+    from ial.bouncing.bump_log import bump_events as bump_events
+    from ial.bouncing.bump_log_file import write_log as write_log
+    from ial.bouncing.bump_timing import BumpTiming as BumpTiming
+    from ial.bouncing.calibration import Calibration as Calibration
+    from ial.bouncing.calibration import LeastBound as LeastBound
     from ial.bouncing.cells.cell_map import CellMap as CellMap
     from ial.bouncing.cells.graph import LabelledGraph as LabelledGraph
     from ial.bouncing.cells.graph import disjoint_union as disjoint_union
@@ -29,6 +35,8 @@ if TYPE_CHECKING:
     from ial.bouncing.filters.bounce_filter import Place as Place
     from ial.bouncing.filters.building import build_filter as build_filter
     from ial.bouncing.filters.building import free_cells as free_cells
+    from ial.bouncing.filters.bump_tracker import BumpTracker as BumpTracker
+    from ial.bouncing.filters.bump_tracker import legs_of as legs_of
     from ial.bouncing.filters.cycle_places import CyclePlaces as CyclePlaces
     from ial.bouncing.filters.filter_file import read_filter as read_filter
     from ial.bouncing.filters.filter_file import write_filter as write_filter
@@ -37,6 +45,8 @@ if TYPE_CHECKING:
     from ial.bouncing.filters.robust_building import build_robust_filter as build_robust_filter
     from ial.bouncing.filters.robust_filter import RobustFilter as RobustFilter
     from ial.bouncing.filters.setting import Setting as Setting
+    from ial.bouncing.known_run import KnownRun as KnownRun
+    from ial.bouncing.known_run import known_runs as known_runs
     from ial.bouncing.planning.angle_search import AngleSequence as AngleSequence
     from ial.bouncing.planning.angle_search import search_angles as search_angles
     from ial.bouncing.planning.information_sets import InformationSets as InformationSets
@@ -49,6 +59,7 @@ if TYPE_CHECKING:
     from ial.bouncing.rays.ray_set import RaySet as RaySet
     from ial.bouncing.rays.real_robot import RealPose as RealPose
     from ial.bouncing.rays.real_robot import RealRobot as RealRobot
+    from ial.bouncing.simulated_log import simulated_log as simulated_log
     from ial.bouncing.stream import parse_stream as parse_stream
 else:
     from ial.lazy import lazy as _lazy
@@ -58,6 +69,14 @@ else:
         {
             "planning.angle_search": ("AngleSequence", "search_angles"),
             "automata.automaton": ("Automaton",),
+            "bump_event": ("BumpEvent",),
+            "bump_log": ("bump_events",),
+            "bump_log_file": ("write_log",),
+            "bump_timing": ("BumpTiming",),
+            "calibration": ("Calibration", "LeastBound"),
+            "known_run": ("KnownRun", "known_runs"),
+            "simulated_log": ("simulated_log",),
+            "filters.bump_tracker": ("BumpTracker", "legs_of"),
             "filters.bank": ("FilterBank",),
             "filters.bounce_filter": ("BounceFilter", "Place"),
             "filters.building": ("build_filter", "free_cells"),

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
-from ial.cli.bounce import build, export, run, search_angle, show
+from ial.cli.bounce import build, calibrate, export, run, search_angle, show
 from ial.cli.bounce import simulate as bounce_simulate
 from ial.cli.lidar import bounds, localize, replay, stream, warm, where
 from ial.cli.recordings import convert, info, kidnap, map_info, simulate
@@ -46,6 +46,7 @@ maps.command("info")(map_info.map_info)
 app.add_typer(maps, name="map")
 bounce.command("build")(build.build)
 bounce.command("run")(run.run)
+bounce.command("calibrate")(calibrate.calibrate)
 bounce.command("export")(export.export)
 bounce.command("search-angle")(search_angle.search_angle)
 bounce.command("show")(show.show)

@@ -156,8 +156,8 @@ def test_bad_environments_are_refused(refused: Callable[..., str], text: str, me
 
 def test_bad_filters_and_streams_are_refused(refused: Callable[..., str], built: Path, hall: Path) -> None:
     assert "symbol 3 of the stream is '2'" in refused("bounce", "run", built, "--stream", "012")
-    assert "either as --stream BITS or as --file FILE" in refused("bounce", "run", built)
-    assert "either as --stream BITS or as --file FILE" in refused("bounce", "run", built, "--stream", "0", "--file", "x")
+    assert "one of --stream BITS, --file FILE and --log FILE" in refused("bounce", "run", built)
+    assert "one of --stream BITS, --file FILE and --log FILE" in refused("bounce", "run", built, "--stream", "0", "--file", "x")
     assert "cannot be read" in refused("bounce", "run", built, "--file", "nowhere.txt")
     assert "fits no place of the environment" in refused("bounce", "run", built, "--world", "closed", "--stream", "0" * 12)
     assert "two environments have the same name" in refused("bounce", "build", hall, hall, "--out", "f.npz")

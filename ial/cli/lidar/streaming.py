@@ -1,17 +1,14 @@
 """`Streaming`: what `ial stream` was asked to do, and the doing of it. Nothing here imports what only results and recordings need."""
 
 import os
-import signal
 import sys
 from collections import Counter
-from collections.abc import Iterator
-from contextlib import AbstractContextManager, ExitStack
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
-from types import FrameType, TracebackType
-from typing import Any, BinaryIO
 
 from ial.cli.lidar.answer_file import AnswerFile
+from ial.cli.shell.ending import Ending
 from ial.cli.shell.inputs import Inputs
 from ial.cli.shell.terminal import remark
 from ial.datasets.recording import Recording
@@ -24,44 +21,6 @@ from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
 from ial.lidar.warming import warm
 from ial.results.lidar.enclosures import enclosure_line
-
-
-class _EndError(Exception):
-    """The process was asked to end while it waited for input."""
-
-
-class _Ending(AbstractContextManager["_Ending"]):
-    """Ends a loop on SIGTERM or SIGINT: at once while it waits, else after the scan at hand."""
-
-    def __init__(self) -> None:
-        self.wanted = False
-        self._waits = False
-        self._before: dict[int, Any] = {}
-
-    def __enter__(self) -> "_Ending":
-        for number in (signal.SIGTERM, signal.SIGINT):
-            self._before[number] = signal.signal(number, self._asked)
-        return self
-
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> bool:
-        for number, handler in self._before.items():
-            signal.signal(number, handler)
-        return kind is _EndError
-
-    def _asked(self, number: int, frame: FrameType | None) -> None:
-        self.wanted = True
-        if self._waits:
-            raise _EndError
-
-    def lines(self, file: BinaryIO) -> Iterator[bytes]:
-        """Yield the lines of a file; waiting for one may be interrupted."""
-        while not self.wanted:
-            self._waits = True
-            line = file.readline()
-            self._waits = False
-            if not line:
-                return
-            yield line
 
 
 @dataclass(frozen=True)
@@ -100,7 +59,7 @@ class Streaming:
         statuses: Counter[str] = Counter()
         vanishing = 0
         with ExitStack() as stack:
-            ending = stack.enter_context(_Ending())
+            ending = stack.enter_context(Ending())
             localizer = Localizer(self.inputs.grid(), config=self.config)
             checkpoint = None if self.state is None else Checkpoint.load(self.state, localizer)
             if checkpoint is not None:
@@ -128,7 +87,7 @@ class Streaming:
                     break
         _close(source, statuses, vanishing, times)
 
-    def _source(self, ending: _Ending) -> Recording:
+    def _source(self, ending: Ending) -> Recording:
         if self.inputs.recording is not None:
             return self.inputs.source()
         return ScanStream(ending.lines(sys.stdin.buffer), "standard input", self.inputs.mounting)

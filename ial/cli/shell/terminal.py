@@ -28,6 +28,11 @@ def say_json(record: Any) -> None:
     print(json.dumps(record, indent=2, allow_nan=False, ensure_ascii=False))
 
 
+def say_json_line(record: Any) -> None:
+    """Print one JSON object in a line of its own, at once."""
+    print(json.dumps(record, allow_nan=False, ensure_ascii=False), flush=True)
+
+
 def remark(kind: str, text: str, style: str) -> None:
     """Print one line about the work, such as a warning."""
     err.print(f"[{style}]{kind}:[/{style}]", end=" ")
