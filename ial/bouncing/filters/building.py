@@ -1,6 +1,6 @@
 """`build_filter`: from environments to the filter of a robot in one of them."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 
 from ial.bouncing.automata.determinization import MOST_STATES, determinize
@@ -92,6 +92,8 @@ def build_filter(
     rule: Rule = "centre",
     corner: Corner = "segment",
     most_states: int = MOST_STATES,
+    progress: Callable[[int], object] | None = None,
+    most_visits: int | None = None,
 ) -> BounceFilter:
     """Return the filter of a robot that is in one of several environments.
 
@@ -109,8 +111,8 @@ def build_filter(
         When a cell is free, see `rasterize` and `erode`.
     corner
         What a step must not touch, see `passed_cells`.
-    most_states
-        The number of states at which to give up.
+    most_states, progress, most_visits
+        The number of states at which to give up, what is told how many were found, and how much work is allowed, see `determinize`.
 
     Raises
     ------
@@ -118,11 +120,11 @@ def build_filter(
         If there is no environment, a number cannot be meant, or the width of a cell is not known.
     MapError
         If an environment has no free cell, or there would be too many.
-    FilterError
-        If there would be too many states.
+    TooManyStatesError
+        If there would be too many states, or too much work to find them.
     """
     rasters = all_free_cells(environments, cell, radius, rule)
     maps = [CellMap(raster, headings, corner, merge=True) for raster in rasters.values()]
-    automaton = determinize(disjoint_union([each.graph for each in maps]), most_states)
+    automaton = determinize(disjoint_union([each.graph for each in maps]), most_states, progress=progress, most_visits=most_visits)
     setting = Setting.of_rasters(rasters, headings, radius, rule, corner)
     return BounceFilter(FilterTable.of(automaton), CyclePlaces.of(automaton, maps), setting)

@@ -4,6 +4,7 @@ A set is then a row of bits, which a microcontroller can hold, and a bump takes 
 coarser than those of `RayModel`, which cuts them anew at each bump.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -76,6 +77,7 @@ class PieceMap:
         bounds: ExecutionBounds,
         part_m: Fraction,
         headings: int,
+        progress: Callable[[int, int], object] | None = None,
     ) -> "PieceMap":
         """Return the map of a point robot in an environment.
 
@@ -87,6 +89,8 @@ class PieceMap:
             How wide a part of a wall is, at most, in metres.
         headings
             How many intervals of headings there are, at least 32.
+        progress
+            Called with how many numbers of steps were looked at, and of how many.
 
         Raises
         ------
@@ -109,7 +113,7 @@ class PieceMap:
         turns = floor((bounce_deg - bounds.turn_deg) / part_deg), ceil((bounce_deg + bounds.turn_deg) / part_deg)
         # A leg is not longer than the environment, so after so many steps no robot is still on its way.
         longest = ceil(Fraction(model.walls.scale) / (step_m * (1 - bounds.step))) + bounds.count + 1
-        begins, ends, counts = _hits(model, _pieces(parts, headings), parts, longest)
+        begins, ends, counts = _hits(model, _pieces(parts, headings), parts, longest, progress)
         keys, at = np.unique(begins * parts.sum() + ends, return_inverse=True)
         least, most = np.full(len(keys), np.iinfo(np.int32).max, dtype=np.int32), np.zeros(len(keys), dtype=np.int32)
         np.minimum.at(least, at.reshape(-1), counts)
@@ -169,7 +173,9 @@ def _pieces(parts: npt.NDArray[np.int64], headings: int) -> RaySet:
     return RaySet(np.tile(walls, headings), lower, upper, none, none > 0, np.full(count, np.inf))
 
 
-def _hits(model: RayModel, pieces: RaySet, parts: npt.NDArray[np.int64], longest: int) -> tuple[npt.NDArray[np.int64], ...]:
+def _hits(
+    model: RayModel, pieces: RaySet, parts: npt.NDArray[np.int64], longest: int, progress: Callable[[int, int], object] | None
+) -> tuple[npt.NDArray[np.int64], ...]:
     """Return which parts robots can touch at a bump that left from which piece, and after how many steps; repeats are possible."""
     first_part = np.cumsum(parts) - parts
     table, links = model.walls.table
@@ -190,4 +196,6 @@ def _hits(model: RayModel, pieces: RaySet, parts: npt.NDArray[np.int64], longest
         begins.append(leaving[pieces_of[rows]])
         ends.append(first_part[hit.walls[rows]] + first[rows] + further)
         counts.append(np.full(len(rows), count, dtype=np.int64))
+        if progress is not None:
+            progress(count + 1, longest)
     return np.concatenate(begins), np.concatenate(ends), np.concatenate(counts)

@@ -16,6 +16,8 @@ from ial.cli.bounce.options import (
     HeadingCount,
     MostStates,
     Radius,
+    Resolution,
+    Simplify,
     StepError,
     StepLength,
     TurnError,
@@ -24,11 +26,10 @@ from ial.cli.bounce.options import (
     number,
     step_cells,
 )
-from ial.cli.bounce.options import environments as read_environments
 from ial.cli.bounce.options import goal as read_goal
 from ial.cli.shell.options import Json, Overwrite
 from ial.cli.shell.outputs import check_outputs
-from ial.cli.shell.terminal import say, say_json, shown
+from ial.cli.shell.terminal import counting, say, say_json, shown
 from ial.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -36,7 +37,7 @@ if TYPE_CHECKING:
 
     from ial.bouncing.execution_bounds import ExecutionBounds
     from ial.bouncing.filters.goal import Goal
-    from ial.maps.polygons.environment import Environment
+    from ial.cli.bounce.surroundings import Surroundings
 
 _HEADINGS = 72
 
@@ -65,6 +66,8 @@ def build(
         str | None,
         typer.Option(metavar="METRES", help="With --rays, no rooms: who is in a square so wide is localized; 1 if left out."),
     ] = None,
+    resolution: Resolution = None,
+    simplify: Simplify = None,
     overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> None:
@@ -77,9 +80,11 @@ def build(
     from ial.bouncing.filters.building import build_filter
     from ial.bouncing.filters.filter_file import write_filter
     from ial.cli.bounce.report import about, lines
+    from ial.cli.bounce.surroundings import Surroundings
 
     check_outputs([out], environments, overwrite)
-    loaded = read_environments(environments)
+    surroundings = Surroundings.read(environments, resolution, simplify, number(radius, "--radius"))
+    loaded = surroundings.environments
     bounds = execution_bounds(turn_error, step_error, count_error)
     if rays or bounds != ExecutionBounds():
         if (cell, rule, corner, most_states) != (None, "centre", "segment", 2**24):
@@ -91,24 +96,25 @@ def build(
             )
         goal = read_goal(rooms or [], within)
         robot = number(angle, "--angle"), number(step or "1/4", "--step"), bounds
-        _build_pieces(loaded, robot, number("1/4" if part is None else part, "--part"), headings or _HEADINGS, goal, out, as_json)
+        _build_pieces(surroundings, robot, number("1/4" if part is None else part, "--part"), headings or _HEADINGS, goal, out, as_json)
         return
     if rooms or within is not None or part is not None:
         raise ConfigError("--room, --within and --part are for robots with real geometry; give --rays or an error, too")
     width = cell_width(loaded, cell)
     lattice = Headings.of_angle(number(angle, "--angle"), headings, step_cells(step, loaded, width))
-    made = build_filter(loaded, lattice, width, number(radius, "--radius"), rule, corner, most_states)
+    with counting("states") as progress:
+        made = build_filter(loaded, lattice, width, number(radius, "--radius"), rule, corner, most_states, progress)
     write_filter(made, out)
     if as_json:
-        say_json(about(made))
+        say_json({**about(made), "simplified": surroundings.record()})
         return
-    for line in lines(about(made)):
+    for line in (*surroundings.lines(), *lines(about(made))):
         say(line)
     say(f"filter in {shown(out)}; use it with: ial bounce run {shlex.quote(str(shown(out)))} --stream 0010001")
 
 
 def _build_pieces(
-    loaded: "dict[str, Environment]",
+    surroundings: "Surroundings",
     robot: "tuple[Fraction, Fraction, ExecutionBounds]",
     part: "Fraction",
     headings: int,
@@ -122,13 +128,13 @@ def _build_pieces(
     from ial.bouncing.rays.piece_map import PieceMap
     from ial.cli.bounce.piece_report import about, lines
 
-    (name, environment) = next(iter(loaded.items()))
-    made = PieceFilter(PieceMap.of(environment, *robot, part, headings), name, *robot, goal)
+    (name, environment) = next(iter(surroundings.environments.items()))
+    with counting("numbers of steps") as progress:
+        made = PieceFilter(PieceMap.of(environment, *robot, part, headings, progress), name, *robot, goal)
     write_filter(made, out)
-    record = about(made)
     if as_json:
-        say_json(record)
+        say_json({**about(made), "simplified": surroundings.record()})
         return
-    for line in lines(record):
+    for line in (*surroundings.lines(), *lines(about(made))):
         say(line)
     say(f"filter in {shown(out)}; use it with: ial bounce run {shlex.quote(str(shown(out)))} --stream 0010001")

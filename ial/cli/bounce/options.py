@@ -1,4 +1,4 @@
-"""Options that several commands of `ial bounce` share, and the environments they are about."""
+"""Options that several commands of `ial bounce` share, and what they mean."""
 
 from collections.abc import Sequence
 from fractions import Fraction
@@ -12,8 +12,13 @@ if TYPE_CHECKING:
     from ial.bouncing.filters.goal import Goal
     from ial.maps.polygons.environment import Environment
 
-EnvironmentPaths = Annotated[
-    list[Path], typer.Argument(metavar="ENV", help="Polygons (.json, .wkt, .geojson, .svg) or a map.yaml; several if it may be in any.")
+_ENVIRONMENT = "Polygons (.json, .wkt, .geojson, .svg), a map.yaml, a picture (.png, .pgm, .jpg, .bmp), or sample, the embedded map"
+EnvironmentPath = Annotated[Path, typer.Argument(metavar="ENV", help=f"{_ENVIRONMENT}.")]
+EnvironmentPaths = Annotated[list[Path], typer.Argument(metavar="ENV", help=f"{_ENVIRONMENT}; several if it may be in any.")]
+Resolution = Annotated[str | None, typer.Option("--resolution", metavar="METRES", help="The width of a pixel, if ENV is a picture.")]
+Simplify = Annotated[
+    str | None,
+    typer.Option("--simplify", metavar="METRES", help="Use fewer walls, which move by so much at most; narrower parts are left out."),
 ]
 Angle = Annotated[str, typer.Option("--angle", metavar="DEGREES", help="The bouncing angle, counter-clockwise: 90, 22.5 or 45/2.")]
 Cell = Annotated[
@@ -49,24 +54,6 @@ def number(text: str, option: str) -> Fraction:
         return exact_number(text, option)
     except MapError as error:
         raise ConfigError(str(error)) from None
-
-
-def environments(paths: Sequence[Path]) -> "dict[str, Environment]":
-    """Read environments; each is named after its file.
-
-    Raises
-    ------
-    ConfigError
-        If two have the same name.
-    MapError
-        If one cannot be read.
-    """
-    from ial.errors import ConfigError
-    from ial.maps.polygons.environment import load_environment
-
-    if len({path.stem for path in paths}) < len(paths):
-        raise ConfigError("two environments have the same name; give each file a name of its own, since the filter tells them by it")
-    return {path.stem: load_environment(path) for path in paths}
 
 
 def cell_width(loaded: "dict[str, Environment]", cell: str | None) -> Fraction | None:

@@ -5,14 +5,14 @@ from typing import Annotated
 
 import typer
 
-from ial.cli.bounce.options import CountError, StepError, TurnError, execution_bounds, number
+from ial.cli.bounce.options import CountError, EnvironmentPath, Resolution, Simplify, StepError, TurnError, execution_bounds, number
 from ial.cli.shell.options import Overwrite
 from ial.cli.shell.outputs import check_outputs
 from ial.cli.shell.terminal import say, shown
 
 
 def simulate(
-    environment: Annotated[Path, typer.Argument(metavar="ENV", help="Polygons (.json, .wkt, .geojson, .svg) or a map.yaml.")],
+    environment: EnvironmentPath,
     out: Annotated[Path, typer.Option(metavar="STREAM", help="The text file of 0 and 1 to write.")],
     angle: Annotated[str, typer.Option(metavar="DEGREES", help="The bouncing angle, counter-clockwise: 90, 22.5 or 45/2.")] = "90",
     step: Annotated[str, typer.Option(metavar="METRES", help="How far a step leads.")] = "1",
@@ -26,6 +26,8 @@ def simulate(
         tuple[str, str, str] | None, typer.Option(metavar="X Y DEGREES", help="Where to start; at random if it is left out.")
     ] = None,
     truth: Annotated[Path | None, typer.Option(metavar="CSV", help="Where to write the pose after each observation.")] = None,
+    resolution: Resolution = None,
+    simplify: Simplify = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Drive a bouncing robot through an environment, with real geometry and errors within bounds, and write down what it observes."""
@@ -33,10 +35,11 @@ def simulate(
 
     from ial.bouncing.rays.real_robot import RealRobot
     from ial.bouncing.stream_file import write_stream, write_truth
-    from ial.maps.polygons.environment import load_environment
+    from ial.cli.bounce.surroundings import Surroundings
 
     check_outputs([out] if truth is None else [out, truth], [environment], overwrite)
-    loaded = load_environment(environment)
+    surroundings = Surroundings.read([environment], resolution, simplify, number(radius, "--radius"))
+    (loaded,) = surroundings.environments.values()
     bounds = execution_bounds(turn_error, step_error, count_error)
     place = None
     if start is not None:
@@ -45,6 +48,8 @@ def simulate(
     robot = RealRobot(loaded, number(angle, "--angle"), number(step, "--step"), number(radius, "--radius"), bounds, seed, place)
     poses = list(islice(robot.run(), steps))
     write_stream((pose.observation for pose in poses), out)
+    for line in surroundings.lines():
+        say(line)
     say(f"{len(poses)} observations, {sum(pose.observation for pose in poses)} of them bumps, in {shown(out)}")
     if truth is not None:
         write_truth(poses, truth)
