@@ -124,7 +124,25 @@ def build_filter(
         If there would be too many states, or too much work to find them.
     """
     rasters = all_free_cells(environments, cell, radius, rule)
+    return filter_of_cells(rasters, headings, radius, rule, corner, most_states, progress, most_visits)
+
+
+def filter_of_cells(
+    rasters: Mapping[str, Raster],
+    headings: Headings,
+    radius: Fraction,
+    rule: Rule,
+    corner: Corner,
+    most_states: int,
+    progress: Callable[[int], object] | None,
+    most_visits: int | None,
+) -> BounceFilter:
+    """Return the filter of a robot in one of several environments whose free cells are known already, see `all_free_cells`.
+
+    Parameters and errors are those of `build_filter`; the radius and the rule are those that the cells were made with.
+    """
     maps = [CellMap(raster, headings, corner, merge=True) for raster in rasters.values()]
-    automaton = determinize(disjoint_union([each.graph for each in maps]), most_states, progress=progress, most_visits=most_visits)
-    setting = Setting.of_rasters(rasters, headings, radius, rule, corner)
+    graph = disjoint_union([each.graph for each in maps])
+    automaton = determinize(graph, most_states, progress=progress, most_visits=most_visits)
+    setting = Setting.of_rasters(dict(rasters), headings, radius, rule, corner)
     return BounceFilter(FilterTable.of(automaton), CyclePlaces.of(automaton, maps), setting)

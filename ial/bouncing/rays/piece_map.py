@@ -101,12 +101,10 @@ class PieceMap:
         MapError
             If there are too many walls.
         """
-        if part_m <= 0:
-            raise ConfigError(f"parts of walls are {float(part_m):g} m wide; give a width greater than 0")
         if headings < 32:
             raise ConfigError(f"{headings} intervals of headings are too wide to follow rays; give at least 32")
         model = RayModel(environment, bounce_deg, step_m, bounds, _NEVER_COARSER)
-        parts = np.ceil(model.walls.lengths / float(part_m)).astype(np.int64)
+        parts = parts_of(model.walls, part_m)
         if parts.sum() * headings > MOST_PIECES:
             raise FilterError(f"there would be {parts.sum() * headings} pieces; use fewer headings or wider parts, at most {MOST_PIECES}")
         part_deg = Fraction(_FULL_DEG, headings)
@@ -158,6 +156,19 @@ class PieceMap:
         sides = zip((*boxes[:, :2].min(axis=0).tolist(), *boxes[:, 2:].max(axis=0).tolist()), (x, y, x, y), strict=True)
         x0, y0, x1, y1 = (Interval(Fraction(mm, 1000) + corner) for mm, corner in sides)
         return x0.lower, y0.lower, x1.upper, y1.upper
+
+
+def parts_of(walls: Walls, part_m: Fraction) -> npt.NDArray[np.int64]:
+    """Return into how many parts, not wider than so many metres, each wall is divided.
+
+    Raises
+    ------
+    ConfigError
+        If the width is not positive.
+    """
+    if part_m <= 0:
+        raise ConfigError(f"parts of walls are {float(part_m):g} m wide; give a width greater than 0")
+    return np.ceil(walls.lengths / float(part_m)).astype(np.int64)
 
 
 def _pieces(parts: npt.NDArray[np.int64], headings: int) -> RaySet:
