@@ -7,11 +7,12 @@ from fractions import Fraction
 from ial.bouncing.cells.headings import Headings
 from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.filters.building import all_free_cells
-from ial.bouncing.planning.cell_choice import CellChoice, faults_of
+from ial.bouncing.planning.cell_choice import NARROWEST, CellChoice, faults_of, lattice_m
 from ial.bouncing.planning.piece_choice import PieceChoice
 from ial.errors import ConfigError, FilterError, MapError
 from ial.maps.polygons.environment import Environment
 from ial.maps.polygons.raster import Raster, Rule
+from ial.maps.polygons.walls import MOST_WALLS
 
 MOST_STATES = 2**17
 _MOST_CELLS = 2**24
@@ -95,7 +96,8 @@ def advise(
         raise ConfigError(f"the radius of the robot is {float(radius_m):g} m; give 0 for a point, or a positive length")
     robot = _Robot(bounce_deg, step_m, radius_m, ExecutionBounds() if bounds is None else bounds)
     Headings.of_angle(bounce_deg)  # raises for an angle that no choice could help
-    widths = cell_widths(environments, step_m, radius_m)
+    lattice = lattice_m(environments.values())
+    widths = cell_widths(environments, step_m, radius_m, lattice)
     total, done = len(widths) * len(_RULES) * 2 + len(_PARTS) * len(_PART_HEADINGS), 0
 
     def told(_: object) -> None:
@@ -105,7 +107,7 @@ def advise(
             progress(done, total)
 
     cells = []
-    for choice in _cell_choices(environments, robot, widths, most_states):
+    for choice in _cell_choices(environments, robot, widths, lattice, most_states):
         cells.append(choice)
         told(choice)
     pieces, no_pieces = [], _no_pieces(environments, robot)
@@ -120,16 +122,27 @@ def advise(
     return Advice(tuple(cells), tuple(pieces), no_pieces, best, reason)
 
 
-def cell_widths(environments: Mapping[str, Environment], step_m: Fraction | None, radius_m: Fraction) -> list[Fraction]:
-    """Return the widths of cells that are worth a look, widest first: of the robot, its radius, its step, and of the map's own cells."""
+def cell_widths(
+    environments: Mapping[str, Environment], step_m: Fraction | None, radius_m: Fraction, lattice: Fraction | None
+) -> list[Fraction]:
+    """Return the widths of cells that are worth a look, widest first.
+
+    Those of the robot and its radius, of a step, of the map's cells and of five and ten of these, and the narrowest on the lattice of the
+    walls that holds the robot and is not much wider.
+    """
     widths = {width for width in (2 * radius_m, radius_m, step_m) if width}
+    if radius_m and lattice is not None and lattice >= 2 * radius_m:
+        fitting = lattice / (lattice // (2 * radius_m))
+        widths |= {fitting} if fitting * NARROWEST <= 2 * radius_m else set()
     for environment in environments.values():
         if environment.cell is not None:
             widths |= {environment.cell, 5 * environment.cell, 10 * environment.cell}
     return sorted(widths or {Fraction(1), Fraction(1, 2)}, reverse=True)
 
 
-def _cell_choices(environments: Mapping[str, Environment], robot: _Robot, widths: list[Fraction], most_states: int) -> Iterator[CellChoice]:
+def _cell_choices(
+    environments: Mapping[str, Environment], robot: _Robot, widths: list[Fraction], lattice: Fraction | None, most_states: int
+) -> Iterator[CellChoice]:
     least = (robot.bounce_deg / 360).denominator
     for cell in widths:
         for rule in _RULES:
@@ -143,7 +156,7 @@ def _cell_choices(environments: Mapping[str, Environment], robot: _Robot, widths
                 except ConfigError:
                     yield CellChoice(cell, count, rule, "a step leads out of no cell")
                     continue
-                faults = faults_of(environments.values(), cell, headings, robot.radius_m, rule, robot.bounds)
+                faults = faults_of(lattice, cell, headings, robot.radius_m, rule, robot.bounds)
                 yield CellChoice.of(rasters, headings, robot.radius_m, rule, faults, most_states)
 
 
@@ -164,6 +177,9 @@ def _no_pieces(environments: Mapping[str, Environment], robot: _Robot) -> str | 
         return "filters with real geometry are of a point; for a disk, give the polygons in which its centre can be, and --radius 0"
     if len(environments) > 1:
         return "filters with real geometry are of one environment; give one"
+    walls = sum(len(ring) for environment in environments.values() for polygon in environment.polygons for ring in polygon.rings)
+    if walls > MOST_WALLS:
+        return f"rays are followed among at most {MOST_WALLS:,} walls, and here are {walls:,}; use fewer (--simplify)"
     return None
 
 
@@ -182,9 +198,9 @@ def _best(
     if right:
         chosen = min(right, key=lambda each: (each.flash_bytes or 0, each.headings))
         return chosen, (
-            f"a disk {2 * float(robot.radius_m):g} m wide keeps to cells of {float(chosen.cell_m):g} m if it starts at the centre of one, "
-            "along the lattice, and never errs: the walls are on the lattice, and steps lead from centre to centre; the filter is exact "
-            "then, and tells any other robot wrong places"
+            f"a disk {2 * float(robot.radius_m):g} m wide keeps to cells of {float(chosen.cell_m):g} m: walls are on their lattice, and "
+            "steps lead from centre to centre; the filter is right if the robot starts at a centre, in one of the headings, and never "
+            "errs, and tells any other robot wrong places"
         )
     wrong = _why_not(cells)
     known = [each for each in pieces if each.flash_bytes is not None]
@@ -198,8 +214,8 @@ def _best(
     if known:
         smallest = min(known, key=lambda each: (each.flash_bytes or 0, each.pieces))
         return smallest, (
-            f"{wrong}; the filter of rays holds a point wherever it starts, within its bounds of errors; none here has {flash_bytes:,} bytes "
-            "of flash or less, and this is the smallest; on a computer, RayModel knows more"
+            f"{wrong}; the filter of rays holds a point wherever it starts, within its bounds of errors; none here takes as little as "
+            f"{flash_bytes:,} bytes of flash, and this is the smallest; on a computer, RayModel knows more"
         )
     if no_pieces is None:
         return None, f"{wrong}; filters of rays are too much work here: take longer steps (--step), or fewer walls (--simplify)"
@@ -213,7 +229,7 @@ def _why_not(cells: list[CellChoice]) -> str:
     if not made:
         return "there is no exact filter here"
     if shared:
-        return f"every exact filter here would tell this robot wrong places ({', '.join(shared)})"
+        return f"every exact filter here tells this robot wrong places ({', '.join(shared)})"
     if any(not each.faults for each in made):
         return "the exact filter that is right for this robot has too many states"
-    return "every exact filter here would tell this robot wrong places (see the table)"
+    return "every exact filter here tells this robot wrong places"

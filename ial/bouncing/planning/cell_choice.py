@@ -1,5 +1,6 @@
 """`CellChoice`: what the exact filter of some cells and headings comes to, and whether it is right for a robot."""
 
+import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -15,7 +16,7 @@ from ial.maps.polygons.raster import Raster, Rule
 
 MOST_CONFIGURATIONS = 2**22
 _MOST_VISITS = 2**28  # of vertices; some seconds
-_NARROWEST = Fraction(3, 5)  # of a cell: the narrowest disk with which `bench/bouncing_disks.py` has tried the filter
+NARROWEST = Fraction(3, 5)  # of a cell: the narrowest disk with which `bench/bouncing_disks.py` has tried the filter
 
 
 @dataclass(frozen=True)
@@ -93,12 +94,12 @@ class CellChoice:
         except TooManyStatesError as error:
             return replace(choice, more_than=error.states)
         tables = CTables.of(ExportedFilter.of(made), "bounce")
-        sizes = {"flash_bytes": tables.flash_bytes, "stepping_bytes": tables.stepping_bytes, "ram_bytes": tables.ram_bytes}
-        return replace(choice, states=len(made.table) - 1, **sizes)
+        flash, stepping, ram = tables.flash_bytes, tables.stepping_bytes, tables.ram_bytes
+        return replace(choice, states=len(made.table) - 1, flash_bytes=flash, stepping_bytes=stepping, ram_bytes=ram)
 
 
 def faults_of(
-    environments: Iterable[Environment], cell_m: Fraction, headings: Headings, radius_m: Fraction, rule: Rule, bounds: ExecutionBounds
+    lattice: Fraction | None, cell_m: Fraction, headings: Headings, radius_m: Fraction, rule: Rule, bounds: ExecutionBounds
 ) -> Iterator[str]:
     """Yield why an exact filter tells a robot wrong places, in words; nothing if it is right for one that starts at the centre of a cell.
 
@@ -107,35 +108,40 @@ def faults_of(
 
     Parameters
     ----------
-    environments
-        Where the robot can be.
+    lattice
+        That of the walls, see `lattice_m`.
     cell_m, headings, rule
         The choice; `headings` knows the bouncing angle and the step.
     radius_m, bounds
         The robot, and what it may do wrong.
     """
     if bounds != ExecutionBounds():
-        yield "the robot errs"
+        yield "it errs"
     if radius_m == 0:
-        yield "a point"
-    elif not _NARROWEST * cell_m <= 2 * radius_m <= cell_m:
-        yield "narrower than a cell" if 2 * radius_m < cell_m else "wider than a cell"
-    if not all(fits_lattice(each, cell_m) for each in environments):
-        yield "walls off the lattice"
+        yield "it is a point, no disk about as wide as a cell"
+    elif not NARROWEST * cell_m <= 2 * radius_m <= cell_m:
+        yield "it is much narrower than a cell" if 2 * radius_m < cell_m else "it is wider than a cell"
+    if lattice is None or (lattice / cell_m).denominator > 1:
+        yield "walls are not on the lattice of cells"
     if any(x * y != 0 for x, y in headings.offsets.tolist()) or headings.offset_errors != (0.0, 0.0):
-        yield "steps off the lattice"
+        yield "steps do not lead from centre to centre"
     elif headings.step != 1:
-        yield "steps of several cells"
+        yield "a step leads over several cells"
     if rule == "inside":
-        yield "the rule moves bumps"
+        yield "the rule inside moves bumps"
 
 
-def fits_lattice(environment: Environment, cell_m: Fraction) -> bool:
-    """Return whether all walls run along the lattice of cells whose corner is that of the environment, decided exactly."""
-    x0, y0, _, _ = environment.bounds
-    for polygon in environment.polygons:
-        for ring in polygon.rings:
-            for (x, y), (to_x, to_y) in zip(ring, (*ring[1:], ring[0]), strict=True):
-                if (x != to_x and y != to_y) or ((x - x0) / cell_m).denominator > 1 or ((y - y0) / cell_m).denominator > 1:
-                    return False
-    return True
+def lattice_m(environments: Iterable[Environment]) -> Fraction | None:
+    """Return the width of the widest cells on whose lattice all walls run, in metres; None if some wall runs along none.
+
+    The lattice of each environment begins at its lower left corner.
+    """
+    numbers: set[Fraction] = set()
+    for environment in environments:
+        x0, y0, _, _ = environment.bounds
+        for ring in (ring for polygon in environment.polygons for ring in polygon.rings):
+            if any(x != to_x and y != to_y for (x, y), (to_x, to_y) in zip(ring, (*ring[1:], ring[0]), strict=True)):
+                return None
+            numbers |= {x - x0 for x, _ in ring} | {y - y0 for _, y in ring}
+    scale = math.lcm(*{each.denominator for each in numbers})
+    return Fraction(math.gcd(*{int(each * scale) for each in numbers}), scale)

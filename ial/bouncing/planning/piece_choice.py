@@ -11,7 +11,7 @@ from ial.bouncing.rays.piece_map import PieceMap, parts_of
 from ial.maps.polygons.environment import Environment
 from ial.maps.polygons.walls import Walls
 
-_MOST_WORK = 2**22  # pieces times numbers of steps; some seconds
+_MOST_WORK = 2**23  # pieces times numbers of steps; some ten seconds
 
 
 @dataclass(frozen=True)
@@ -47,7 +47,7 @@ class PieceChoice:
         headings: int,
         progress: Callable[[int, int], object] | None = None,
     ) -> "PieceChoice":
-        """Make the map of pieces, unless these times the numbers of steps between two bumps are more than 2²².
+        """Make the map of pieces, unless these times the numbers of steps between two bumps are more than 2²³.
 
         Parameters and errors are those of `PieceMap.of`.
         """

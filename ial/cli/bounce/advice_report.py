@@ -1,5 +1,7 @@
 """What `ial bounce advise` says about filters that might be built."""
 
+from collections.abc import Iterator
+from string import ascii_lowercase
 from typing import Any
 
 from rich.table import Table
@@ -8,8 +10,6 @@ from ial.bouncing.planning.advice import Advice
 from ial.bouncing.planning.cell_choice import CellChoice
 from ial.bouncing.planning.piece_choice import PieceChoice
 from ial.cli.bounce.report import offsets_aside
-
-_RIGHT = "right, from the centre of a cell"
 
 
 def about(advice: Advice) -> dict[str, Any]:
@@ -51,40 +51,44 @@ def _about_pieces(choice: PieceChoice) -> dict[str, Any]:
 
 
 def table(advice: Advice) -> Table:
-    """Return a row for each choice; the one to take has a star."""
+    """Return a row for each choice: those of cells by their rule, those of rays; the one to take has a star."""
     made = Table("", "filter", box=None, pad_edge=False, header_style="bold")
-    for name in ("width", "headings"):
+    for name in ("width", "headings", "size", "states", "flash", "RAM"):
         made.add_column(name, justify="right")
-    made.add_column("rule")
-    for name in ("size", "states", "flash", "RAM"):
-        made.add_column(name, justify="right")
-    made.add_column("for this robot")
+    made.add_column("")
+    letters = dict(zip(_faults(advice), ascii_lowercase, strict=False))
     for choice in advice.cells:
-        made.add_row("*" if choice is advice.best else "", *_cell_texts(choice))
+        states = f"> {choice.more_than:,}" if choice.more_than is not None else _number(choice.states)
+        told = choice.refusal or (f"wrong: {''.join(sorted(letters[each] for each in choice.faults))}" if choice.faults else "right")
+        sizes = _number(choice.configurations), states, _number(choice.flash_bytes), _number(choice.ram_bytes), told
+        made.add_row("*" * (choice is advice.best), choice.rule, f"{float(choice.cell_m):g} m", str(choice.headings), *sizes)
     for piece in advice.pieces:
-        size = f"{piece.pieces:,}"
-        told = (_number(piece.flash_bytes, " B"), _number(piece.ram_bytes, " B"), "right" if piece.flash_bytes else "too much work")
-        made.add_row("*" if piece is advice.best else "", "rays", f"{float(piece.part_m):g} m", str(piece.headings), "", size, "", *told)
+        told = "too much work" if piece.flash_bytes is None else "right"
+        sizes = _number(piece.pieces), "", _number(piece.flash_bytes), _number(piece.ram_bytes), told
+        made.add_row("*" * (piece is advice.best), "rays", f"{float(piece.part_m):g} m", str(piece.headings), *sizes)
     return made
 
 
-def _cell_texts(choice: CellChoice) -> tuple[str, ...]:
-    states = f"> {choice.more_than:,}" if choice.more_than is not None else _number(choice.states)
-    told = f"wrong: {', '.join(choice.faults)}" if choice.faults else _RIGHT
-    if aside := offsets_aside(*choice.offset_errors):
-        told += f" ({aside})"
-    return (
-        "cells",
-        f"{float(choice.cell_m):g} m",
-        str(choice.headings),
-        choice.rule,
-        _number(choice.configurations),
-        states,
-        _number(choice.flash_bytes, " B"),
-        _number(choice.ram_bytes, " B"),
-        choice.refusal or told,
-    )
+def lines(advice: Advice) -> Iterator[str]:
+    """Yield what is said below the table."""
+    for letter, fault in zip(ascii_lowercase, _faults(advice), strict=False):
+        yield f"{letter}: {fault}"
+    aside: dict[int, tuple[float, float]] = {}
+    for choice in advice.cells:
+        degrees, length = aside.get(choice.headings, (0.0, 0.0))
+        aside[choice.headings] = max(degrees, choice.offset_errors[0]), max(length, choice.offset_errors[1])
+    told = [f"of {count} headings {text}" for count, errors in aside.items() if (text := offsets_aside(*errors))]
+    if told:
+        yield f"steps of the cell map are not those of a robot: {'; '.join(told)}"
+    if advice.no_pieces and advice.best:
+        yield f"no filter of rays: {advice.no_pieces}"
+    yield f"{'take the row marked *' if advice.best else 'take none of these'}: {advice.reason}"
 
 
-def _number(value: int | None, unit: str = "") -> str:
-    return "" if value is None else f"{value:,}{unit}"
+def _faults(advice: Advice) -> list[str]:
+    """Return the faults of all choices, each once."""
+    return list(dict.fromkeys(fault for choice in advice.cells for fault in choice.faults))
+
+
+def _number(value: int | None) -> str:
+    return "" if value is None else f"{value:,}"

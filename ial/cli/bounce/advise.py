@@ -45,7 +45,7 @@ def advise(
 ) -> None:
     """Compute what filters come to for a few choices of cells, parts of walls and headings, and say which one to build."""
     from ial.bouncing.planning.advice import advise as advice_of
-    from ial.cli.bounce.advice_report import about, table
+    from ial.cli.bounce.advice_report import about, lines, table
     from ial.cli.bounce.surroundings import Surroundings
 
     size = number(radius, "--radius")
@@ -64,9 +64,8 @@ def advise(
         say(line)
     out.print(table(advice))
     say()
-    if advice.no_pieces and advice.best:
-        say(f"no rays: {advice.no_pieces}")
-    say(f"{'take the row marked *' if advice.best else 'take none of these'}: {advice.reason}")
+    for line in lines(advice):
+        say(line)
     if command:
         say(command)
 

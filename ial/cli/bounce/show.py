@@ -22,7 +22,7 @@ from ial.cli.bounce.options import (
 )
 from ial.cli.shell.options import Overwrite
 from ial.cli.shell.outputs import check_outputs
-from ial.cli.shell.terminal import say, shown
+from ial.cli.shell.terminal import counting, say, shown
 
 if TYPE_CHECKING:
     from ial.bouncing.filters.bounce_filter import BounceFilter
@@ -75,7 +75,8 @@ def show(
         loaded = surroundings.environments
         width = cell_width(loaded, cell)
         robot = Headings.of_angle(number(angle, "--angle"), headings, step_cells(step, loaded, width))
-        made = build_filter(loaded, robot, width, number(radius, "--radius"), rule, corner, most_states)
+        with counting("states") as progress:
+            made = build_filter(loaded, robot, width, number(radius, "--radius"), rule, corner, most_states, progress)
         rasters = all_free_cells(loaded, width, number(radius, "--radius"), rule)
     if what == "basins" and not rasters:
         raise ConfigError(f"{paths[0]}: a filter holds no basins; give the environments after it: {paths[0].name} ENV …")
