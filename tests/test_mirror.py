@@ -97,6 +97,8 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
         "cli/lidar/test_where.py": ["where_report"],
         "cli/shell/test_outputs.py": ["../lidar/job", "out_folder"],
         "cli/test_bounce.py": [
+            "bounce/advice_report",
+            "bounce/advise",
             "bounce/build",
             "bounce/options",
             "bounce/outcome",
@@ -105,6 +107,7 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
             "bounce/report",
             "bounce/run",
             "bounce/simulate",
+            "bounce/surroundings",
         ],
         "cli/test_main.py": ["entry", "shell/inputs", "shell/options", "shell/terminal"],
     },
