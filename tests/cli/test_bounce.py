@@ -392,6 +392,10 @@ def test_a_picture_is_the_environment_that_it_shows(ial: Cli, hall: Path, plan: 
         .stdout.splitlines()[0]
         .endswith("cells of 0.5 m, bouncing angle 90°")
     )
+    assert (
+        "note: cells are 0.5 m wide, as those of the map; ial bounce advise"
+        in ial("bounce", "build", plan, "--resolution", 0.5, "--out", "small.npz", "--overwrite").stderr
+    )
     assert ial("bounce", "simulate", plan, "--resolution", "1/2", "--steps", 5, "--out", "stream.txt").exit_code == 0
     assert ial("bounce", "search-angle", plan, "--resolution", "1/2", "--headings", 4).exit_code == 0
     assert ial("bounce", "show", plan, "--resolution", "1/2", "--cell", 1, "--out", "a.png").exit_code == 0
@@ -433,7 +437,7 @@ def test_fewer_walls_are_told_and_a_filter_is_drawn_on_them(ial: Cli, refused: C
     assert (record["walls_before"], record["walls"]) == expected.walls
     assert record["moved_m"] == float(expected.moved_m)
     before, left = expected.walls
-    assert first == f"slope: simplified by 0.2 m, {left} of {before} walls are left, moved by up to {float(expected.moved_m):g} m"
+    assert first == f"slope: simplified by 0.2 m, {left} of {before} walls are left, moved by up to {float(expected.moved_m):.9g} m"
     assert second == "slope: left out 1 narrow part of the free space (0.01 m²) and 1 small obstacle (0.01 m²)"
     assert ial("bounce", "show", "f.npz", "slope.yaml", "--simplify", "0.2", "--what", "basins", "--out", "a.png").exit_code == 0
     message = refused("bounce", "show", "f.npz", "slope.yaml", "--what", "basins", "--out", "b.png")

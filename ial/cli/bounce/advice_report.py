@@ -53,9 +53,8 @@ def _about_pieces(choice: PieceChoice) -> dict[str, Any]:
 def table(advice: Advice) -> Table:
     """Return a row for each choice: those of cells by their rule, those of rays; the one to take has a star."""
     made = Table("", "filter", box=None, pad_edge=False, header_style="bold")
-    for name in ("width", "headings", "size", "states", "flash", "RAM"):
+    for name in ("width", "headings", "size", "states", "flash", "RAM", "places"):
         made.add_column(name, justify="right")
-    made.add_column("")
     letters = dict(zip(_faults(advice), ascii_lowercase, strict=False))
     for choice in advice.cells:
         states = f"> {choice.more_than:,}" if choice.more_than is not None else _number(choice.states)

@@ -79,7 +79,7 @@ def _command(paths: Sequence[Path], advice: "Advice", said: dict[str, str | None
         return None
     words = ["ial", "bounce", "build", *map(str, paths)]
     if isinstance(best, CellChoice):
-        options = {**said, "--cell": str(best.cell_m), "--headings": str(best.headings), "--radius": radius, "--rule": best.rule}
+        options = {**said, "--cell": str(best.cell_m), "--headings": str(best.headings), "--radius": radius}
     else:
         options = {**said, **errors, "--part": str(best.part_m), "--headings": str(best.headings)}
         words += ["--rays"] * (not errors)

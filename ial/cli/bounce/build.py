@@ -29,7 +29,7 @@ from ial.cli.bounce.options import (
 from ial.cli.bounce.options import goal as read_goal
 from ial.cli.shell.options import Json, Overwrite
 from ial.cli.shell.outputs import check_outputs
-from ial.cli.shell.terminal import counting, say, say_json, shown
+from ial.cli.shell.terminal import counting, remark, say, say_json, shown
 from ial.errors import ConfigError
 
 if TYPE_CHECKING:
@@ -105,6 +105,9 @@ def build(
     with counting("states") as progress:
         made = build_filter(loaded, lattice, width, number(radius, "--radius"), rule, corner, most_states, progress)
     write_filter(made, out)
+    if width is None:
+        said = f"cells are {float(made.setting.cell):g} m wide, as those of the map; ial bounce advise shows what other widths come to"
+        remark("note", said, "cyan")
     if as_json:
         say_json({**about(made), "simplified": surroundings.record()})
         return

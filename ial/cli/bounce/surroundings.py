@@ -90,7 +90,7 @@ class Surroundings:
         for name, each in self.record().items():
             yield (
                 f"{name}: simplified by {each['tolerance_m']:g} m, {each['walls']:,} of {each['walls_before']:,} walls are left, moved "
-                f"by up to {each['moved_m']:g} m"
+                f"by up to {each['moved_m']:.9g} m"
             )
             parts, holes = each["left_out_parts"], each["left_out_holes"]
             if parts or holes:
