@@ -4,12 +4,13 @@ from collections.abc import Iterator
 from string import ascii_lowercase
 from typing import Any
 
-from rich.table import Table
-
 from ial.bouncing.planning.advice import Advice
 from ial.bouncing.planning.cell_choice import CellChoice
 from ial.bouncing.planning.piece_choice import PieceChoice
 from ial.cli.bounce.report import offsets_aside
+
+_TITLES = ("", "filter", "width", "headings", "size", "states", "flash", "RAM", "places")
+_LEFT = 2  # so many columns are flush left
 
 
 def about(advice: Advice) -> dict[str, Any]:
@@ -50,26 +51,14 @@ def _about_pieces(choice: PieceChoice) -> dict[str, Any]:
     }
 
 
-def table(advice: Advice) -> Table:
-    """Return a row for each choice: those of cells by their rule, those of rays; the one to take has a star."""
-    made = Table("", "filter", box=None, pad_edge=False, header_style="bold")
-    for name in ("width", "headings", "size", "states", "flash", "RAM", "places"):
-        made.add_column(name, justify="right")
-    letters = dict(zip(_faults(advice), ascii_lowercase, strict=False))
-    for choice in advice.cells:
-        states = f"> {choice.more_than:,}" if choice.more_than is not None else _number(choice.states)
-        told = choice.refusal or (f"wrong: {''.join(sorted(letters[each] for each in choice.faults))}" if choice.faults else "right")
-        sizes = _number(choice.configurations), states, _number(choice.flash_bytes), _number(choice.ram_bytes), told
-        made.add_row("*" * (choice is advice.best), choice.rule, f"{float(choice.cell_m):g} m", str(choice.headings), *sizes)
-    for piece in advice.pieces:
-        told = "too much work" if piece.flash_bytes is None else "right"
-        sizes = _number(piece.pieces), "", _number(piece.flash_bytes), _number(piece.ram_bytes), told
-        made.add_row("*" * (piece is advice.best), "rays", f"{float(piece.part_m):g} m", str(piece.headings), *sizes)
-    return made
-
-
 def lines(advice: Advice) -> Iterator[str]:
-    """Yield what is said below the table."""
+    """Yield the lines to print: a table, and what is said below it. Its lines are as long as they must be, on a terminal of any width."""
+    rows = [_TITLES, *_rows(advice)]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        cells = (text.ljust(width) if at < _LEFT else text.rjust(width) for at, (text, width) in enumerate(zip(row, widths, strict=True)))
+        yield "  ".join(cells).rstrip()
+    yield ""
     for letter, fault in zip(ascii_lowercase, _faults(advice), strict=False):
         yield f"{letter}: {fault}"
     aside: dict[int, tuple[float, float]] = {}
@@ -82,6 +71,20 @@ def lines(advice: Advice) -> Iterator[str]:
     if advice.no_pieces and advice.best:
         yield f"no filter of rays: {advice.no_pieces}"
     yield f"{'take the row marked *' if advice.best else 'take none of these'}: {advice.reason}"
+
+
+def _rows(advice: Advice) -> Iterator[tuple[str, ...]]:
+    """Yield the texts of a row for each choice: of cells by their rule, of rays; the one to take has a star."""
+    letters = dict(zip(_faults(advice), ascii_lowercase, strict=False))
+    for choice in advice.cells:
+        states = f"> {choice.more_than:,}" if choice.more_than is not None else _number(choice.states)
+        told = choice.refusal or (f"wrong: {''.join(sorted(letters[each] for each in choice.faults))}" if choice.faults else "right")
+        sizes = _number(choice.configurations), states, _number(choice.flash_bytes), _number(choice.ram_bytes), told
+        yield "*" * (choice is advice.best), choice.rule, f"{float(choice.cell_m):g} m", str(choice.headings), *sizes
+    for piece in advice.pieces:
+        told = "too much work" if piece.flash_bytes is None else "right"
+        sizes = _number(piece.pieces), "", _number(piece.flash_bytes), _number(piece.ram_bytes), told
+        yield "*" * (piece is advice.best), "rays", f"{float(piece.part_m):g} m", str(piece.headings), *sizes
 
 
 def _faults(advice: Advice) -> list[str]:

@@ -21,7 +21,7 @@ from ial.cli.bounce.options import (
     number,
 )
 from ial.cli.shell.options import Json
-from ial.cli.shell.terminal import counting, out, say, say_json
+from ial.cli.shell.terminal import counting, say, say_json
 
 if TYPE_CHECKING:
     from ial.bouncing.planning.advice import Advice
@@ -45,7 +45,7 @@ def advise(
 ) -> None:
     """Compute what filters come to for a few choices of cells, parts of walls and headings, and say which one to build."""
     from ial.bouncing.planning.advice import advise as advice_of
-    from ial.cli.bounce.advice_report import about, lines, table
+    from ial.cli.bounce.advice_report import about, lines
     from ial.cli.bounce.surroundings import Surroundings
 
     size = number(radius, "--radius")
@@ -62,8 +62,6 @@ def advise(
         return
     for line in surroundings.lines():
         say(line)
-    out.print(table(advice))
-    say()
     for line in lines(advice):
         say(line)
     if command:

@@ -148,3 +148,10 @@ def test_a_ring_that_was_turned_round_is_compared_all_the_same() -> None:
     for limit, corners, squared in ((4, [0, 2, 3, 5], 4), (3, [0, 2, 3, 4, 5], 1), (Fraction(1, 2), [0, 1, 2, 3, 4, 5], 0)):
         for order in (left, left[::-1], left[2:] + left[:2]):
             assert simplification._within(ring, order, Fraction(limit)) == (corners, squared)
+
+
+def test_a_corner_beyond_the_ends_of_an_edge_is_as_far_off_as_the_nearer_end() -> None:
+    for corner, squared in (((14, 1), 17), ((-3, 2), 13), ((10, 5), 25), ((5, 5), 25)):
+        ring = [(0, 0), corner, (10, 0), (10, -10), (0, -10)]
+        assert simplification._within(ring, [*ring[:1], *ring[2:]], Fraction(squared)) == ([0, 2, 3, 4], squared)
+        assert simplification._within(ring, [*ring[:1], *ring[2:]], Fraction(squared - 1)) == ([0, 1, 2, 3, 4], 0)
