@@ -13,18 +13,20 @@ from ial.cli.bounce.options import (
     HeadingCount,
     MostStates,
     Radius,
+    Resolution,
+    Simplify,
     StepLength,
     cell_width,
-    environments,
     number,
     step_cells,
 )
 from ial.cli.shell.options import Overwrite
 from ial.cli.shell.outputs import check_outputs
-from ial.cli.shell.terminal import say, shown
+from ial.cli.shell.terminal import counting, say, shown
 
 if TYPE_CHECKING:
     from ial.bouncing.filters.bounce_filter import BounceFilter
+    from ial.maps.polygons.environment import Environment
     from ial.maps.polygons.raster import Raster
 
 
@@ -46,6 +48,8 @@ def show(
     rule: FreeRule = "centre",
     corner: CornerPolicy = "segment",
     most_states: MostStates = 2**24,
+    resolution: Resolution = None,
+    simplify: Simplify = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Draw a filter. A filter file says how it was built, so the options are for environments alone."""
@@ -53,6 +57,7 @@ def show(
     from ial.bouncing.filters.bounce_filter import BounceFilter
     from ial.bouncing.filters.building import all_free_cells, build_filter
     from ial.bouncing.filters.filter_file import read_filter
+    from ial.cli.bounce.surroundings import Surroundings
     from ial.errors import ConfigError
 
     check_outputs([out], paths, overwrite)
@@ -63,27 +68,32 @@ def show(
         if not isinstance(read, BounceFilter):
             raise ConfigError(f"{paths[0]}: the filter of a robot with errors has no cycles and no basins; give one without errors")
         made = read
-        rasters = _walls(made, paths[1:])
+        surroundings = Surroundings.read(paths[1:], resolution, simplify, made.setting.radius)
+        rasters = _walls(made, surroundings.environments)
     else:
-        loaded = environments(paths)
+        surroundings = Surroundings.read(paths, resolution, simplify, number(radius, "--radius"))
+        loaded = surroundings.environments
         width = cell_width(loaded, cell)
         robot = Headings.of_angle(number(angle, "--angle"), headings, step_cells(step, loaded, width))
-        made = build_filter(loaded, robot, width, number(radius, "--radius"), rule, corner, most_states)
+        with counting("states") as progress:
+            made = build_filter(loaded, robot, width, number(radius, "--radius"), rule, corner, most_states, progress=progress)
         rasters = all_free_cells(loaded, width, number(radius, "--radius"), rule)
     if what == "basins" and not rasters:
         raise ConfigError(f"{paths[0]}: a filter holds no basins; give the environments after it: {paths[0].name} ENV …")
     _draw(out, made, rasters, what)
+    for line in surroundings.lines():
+        say(line)
     say(f"picture in {shown(out)}")
 
 
-def _walls(made: "BounceFilter", paths: list[Path]) -> "dict[str, Raster]":
+def _walls(made: "BounceFilter", loaded: "dict[str, Environment]") -> "dict[str, Raster]":
     """Return the free cells of the environments a filter was built from; none if no environment is given."""
     from ial.bouncing.filters.building import all_free_cells
     from ial.errors import ConfigError
 
-    if not paths:
+    if not loaded:
         return {}
-    setting, places, loaded = made.setting, made.places, environments(paths)
+    setting, places = made.setting, made.places
     names = ", ".join(setting.names)
     if sorted(loaded) != sorted(setting.names):
         raise ConfigError(f"the filter is one of {names}, not of {', '.join(loaded)}; give the environments it was built from")
