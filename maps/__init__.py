@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from ial.maps.polygons.polygon import Polygon as Polygon
     from ial.maps.polygons.raster import Raster as Raster
     from ial.maps.polygons.raster import rasterize as rasterize
+    from ial.maps.polygons.simplification import Simplification as Simplification
+    from ial.maps.polygons.simplification import simplified as simplified
 else:
     from ial.lazy import lazy as _lazy
 
@@ -68,5 +70,6 @@ else:
                 "Raster",
                 "rasterize",
             ),
+            "polygons.simplification": ("Simplification", "simplified"),
         },
     )

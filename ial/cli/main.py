@@ -6,7 +6,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
-from ial.cli.bounce import build, calibrate, export, run, search_angle, show
+from ial.cli.bounce import advise, build, calibrate, export, run, search_angle, show
 from ial.cli.bounce import simulate as bounce_simulate
 from ial.cli.lidar import bounds, localize, replay, stream, warm, where
 from ial.cli.recordings import convert, info, kidnap, map_info, simulate
@@ -44,6 +44,7 @@ app.command("replay")(replay.replay)
 app.command("warm")(warm.warm)
 maps.command("info")(map_info.map_info)
 app.add_typer(maps, name="map")
+bounce.command("advise")(advise.advise)
 bounce.command("build")(build.build)
 bounce.command("run")(run.run)
 bounce.command("calibrate")(calibrate.calibrate)

@@ -68,7 +68,7 @@ def read_map(path: str | Path, semantics: Semantics = "nav2") -> OccupancyGrid:
     if semantics not in ("nav2", "ros1"):
         raise MapError(f"the semantics {semantics!r} of a map file is unknown; give 'nav2' or 'ros1'")
     image = read_image(metadata.image)
-    cells = _classified(image, metadata, semantics)
+    cells = classified(image, metadata, semantics)
     _warn_about_205(image, cells, metadata, path)
     try:
         return OccupancyGrid(cells[::-1], metadata.resolution, metadata.origin)
@@ -76,7 +76,7 @@ def read_map(path: str | Path, semantics: Semantics = "nav2") -> OccupancyGrid:
         raise MapError(f"{path}: {error}") from error
 
 
-def _classified(image: Image, metadata: MapMetadata, semantics: Semantics) -> ClassArray:
+def classified(image: Image, metadata: MapMetadata, semantics: Semantics) -> ClassArray:
     """Return the classes of all pixels, by way of a table of all levels of grey."""
     ros1 = semantics == "ros1"
     level, white = _mean_level(image, metadata.mode == "trinary") if ros1 else _luma_level(image)

@@ -7,9 +7,12 @@ from pathlib import Path
 
 from ial.errors import MapError
 from ial.maps.grids.map_warning import MapWarning
+from ial.maps.grids.picture import PICTURES, is_picture, read_picture
+from ial.maps.polygons.exact_number import exact_number
 from ial.maps.polygons.polygon import Polygon
 
 _LARGEST_FILE = 2**26  # bytes
+_HUGE = Fraction(10**9)  # metres; what is wider is refused, whatever it is
 
 
 @dataclass(frozen=True)
@@ -53,19 +56,23 @@ class Environment:
         return min(x0), min(y0), max(x1), max(y1)
 
 
-def load_environment(path: str | Path) -> Environment:
+def load_environment(path: str | Path, resolution: Fraction | float | str | None = None) -> Environment:
     """Read an environment; the ending of the name tells the format.
 
     Parameters
     ----------
     path
         ``.json`` (canonical, rational coordinates), ``.wkt``, ``.geojson``, ``.svg``, or what `load_map` takes: there the free cells are
-        the free space, in the map frame; in the frame of the grid, with a warning, if that is turned.
+        the free space, in the map frame; in the frame of the grid, with a warning, if that is turned. Or a picture, ``.png``, ``.pgm``,
+        ``.jpg``, ``.jpeg`` or ``.bmp``, of which light pixels are free, see `read_picture`; its lower left corner is (0, 0).
+    resolution
+        The width of a pixel of a picture in metres; a float means its shortest decimal. All other files say themselves how large they are.
 
     Raises
     ------
     MapError
-        If the file is missing, damaged or of another kind, or what it describes is no polygon.
+        If the file is missing, damaged or of another kind, or what it describes is no polygon; if a picture has no resolution, or another
+        file is given one.
 
     Warns
     -----
@@ -73,11 +80,17 @@ def load_environment(path: str | Path) -> Environment:
         If the grid is turned in its map.
     """
     path = Path(path)
+    if is_picture(path):
+        return _from_picture(path, resolution)
+    if resolution is not None:
+        raise MapError(
+            f"{path}: the file says itself how large everything is; give a resolution for a picture ({', '.join(PICTURES)}) only"
+        )
     if path.suffix in (".json", ".wkt", ".geojson", ".svg"):
         return _from_text(path)
     if path.suffix not in (".yaml", ".yml", ".bag", ".db3", ".mcap") and not path.is_dir():
         reason = "this is no environment" if path.exists() else "the environment does not exist"
-        raise MapError(f"{path}: {reason}; give a .json, .wkt, .geojson or .svg file with polygons, or a map.yaml")
+        raise MapError(f"{path}: {reason}; give a .json, .wkt, .geojson or .svg file with polygons, a map.yaml, or a picture")
     from ial.maps.grids.loading import load_map
     from ial.maps.grids.occupancy_grid import FREE
     from ial.maps.polygons.outline import outlines
@@ -91,6 +104,22 @@ def load_environment(path: str | Path) -> Environment:
         )
         return Environment(outlines(grid.mask(FREE), cell), cell)
     return Environment(outlines(grid.mask(FREE), cell, (Fraction(repr(origin.x)), Fraction(repr(origin.y)))), cell)
+
+
+def _from_picture(path: Path, resolution: Fraction | float | str | None) -> Environment:
+    from ial.maps.grids.occupancy_grid import FREE
+    from ial.maps.polygons.outline import outlines
+
+    if resolution is None:
+        raise MapError(
+            f"{path}: a picture does not say how large it is; give its resolution, the width of a pixel in metres (--resolution)"
+        )
+    cell = exact_number(repr(resolution) if isinstance(resolution, float) else resolution, "the resolution")
+    grid = read_picture(path, float(min(cell, _HUGE)))
+    try:
+        return Environment(outlines(grid.mask(FREE), cell), cell)
+    except MapError as error:
+        raise MapError(f"{path}: {error}") from None
 
 
 def _from_text(path: Path) -> Environment:

@@ -139,10 +139,11 @@ def _check_contacts(rings: list[list[Point]], scale: int) -> None:
         if ring != other:
             touched[ring, at] += points
             touched[other, to] += points
+    boxes = [tuple((min(each), max(each)) for each in zip(*ring, strict=True)) for ring in rings]
     for index, hole in enumerate(rings[1:], 1):
         pieces = list(_pieces(hole, index, touched))
         for point in pieces if len(pieces) > len(hole) or any((index, at) in touched for at in range(len(hole))) else pieces[:1]:
-            _check_place(point, index, rings)
+            _check_place(point, index, rings, boxes)
 
 
 def _pieces(hole: list[Point], index: int, touched: dict[tuple[int, int], list[Point]]) -> Iterator[Point]:
@@ -153,10 +154,12 @@ def _pieces(hole: list[Point], index: int, touched: dict[tuple[int, int], list[P
             yield x0 + x1, y0 + y1
 
 
-def _check_place(doubled: Point, index: int, rings: list[list[Point]]) -> None:
+def _check_place(doubled: Point, index: int, rings: list[list[Point]], boxes: list[tuple[Point, ...]]) -> None:
     for other, ring in enumerate(rings):
         if other == index:
             continue
+        if other > 0 and any(not 2 * low <= at <= 2 * high for at, (low, high) in zip(doubled, boxes[other], strict=True)):
+            continue  # outside of the box, so outside of the hole
         position = side(doubled, [(2 * x, 2 * y) for x, y in ring])
         if other == 0 and position < 0:
             raise MapError(f"hole {index} does not lie inside of the outer ring; move it in, or leave it out")

@@ -87,7 +87,7 @@ class Walls:
         edges = [edge for ring in rings for edge in ring]
         if len(edges) > MOST_WALLS:
             raise MapError(
-                f"the environment has {len(edges)} walls; rays are supported among at most {MOST_WALLS}, so simplify its polygons"
+                f"the environment has {len(edges)} walls; rays are supported among at most {MOST_WALLS}, so simplify them (--simplify)"
             )
         x0, y0 = (low - radius for low in environment.bounds[:2])
         after: list[int] = []

@@ -1,3 +1,4 @@
+import io
 import json
 import re
 import shlex
@@ -9,19 +10,28 @@ from itertools import islice
 from pathlib import Path
 from typing import Any
 
+import cv2
 import numpy as np
 import pytest
+from rich.console import Console
+from rich.progress import Progress
 from typer.testing import CliRunner
 
+from ial.bouncing.exports.c_tables import CTables
+from ial.bouncing.exports.exported_filter import ExportedFilter
+from ial.bouncing.exports.piece_source import PieceTables
 from ial.bouncing.filters.bounce_filter import BounceFilter
 from ial.bouncing.filters.filter_file import read_filter
 from ial.bouncing.filters.piece_filter import PieceFilter
 from ial.bouncing.rays.real_robot import RealRobot
 from ial.cli.bounce.piece_outcome import outcome
 from ial.cli.main import app
+from ial.cli.shell import terminal
+from ial.datasets.sample import sample_map_path
 from ial.maps.grids.map_file import write_map
-from ial.maps.grids.occupancy_grid import OccupancyGrid
+from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.maps.polygons.environment import load_environment
+from ial.maps.polygons.simplification import simplified
 
 Cli = Callable[..., Any]
 WKT = "POLYGON ((0 0, 9 0, 9 4, 5 4, 5 7, 0 7, 0 0), (2 2, 2 4, 3 4, 3 2, 2 2))"
@@ -288,7 +298,7 @@ def test_a_set_filter_is_exported_as_c_alone(ial: Cli, sets: Path) -> None:
     for more in (("--out", "sets.v"), ("--out", "b.h", "--restart"), ("--out", "b.h", "--minimize", "colours")):
         result = ial("bounce", "export", sets, *more)
         assert result.exit_code == 2
-        assert "give --format c, without --minimize and --restart" in result.stderr
+        assert "give --format c or npz, without --minimize and --restart" in result.stderr
     result = ial("bounce", "show", sets, "--out", "a.png")
     assert result.exit_code == 2
     assert "no cycles and no basins" in result.stderr
@@ -360,3 +370,192 @@ def test_nothing_that_is_read_is_overwritten_and_no_output_is_lost(refused: Call
 
 def test_a_filter_with_a_space_in_its_name_is_quoted(ial: Cli, hall: Path) -> None:
     assert "ial bounce run 'my filter.npz' --stream" in ial("bounce", "build", hall, "--out", "my filter.npz").stdout
+
+
+@pytest.fixture
+def plan() -> Path:
+    """A picture of the hall, a pixel for each half a metre, dark where the wall is, in the frame of the polygons."""
+    pixels = np.zeros((14, 18), dtype=np.uint8)
+    pixels[:, :10] = pixels[6:, :] = 255
+    pixels[6:10, 4:6] = 0  # rows count from the top
+    path = Path("plan.png")
+    assert cv2.imwrite(str(path), pixels)
+    return path
+
+
+def test_a_picture_is_the_environment_that_it_shows(ial: Cli, hall: Path, plan: Path) -> None:
+    options = ("--angle", 90, "--cell", 1, "--json")
+    drawn = json.loads(ial("bounce", "build", plan, "--resolution", "1/2", *options, "--out", "plan.npz").stdout)
+    written = json.loads(ial("bounce", "build", hall, *options, "--out", "hall.npz").stdout)
+    assert {**drawn, "environments": []}["states"] == written["states"]
+    assert drawn["configurations"] == written["configurations"]
+    both = json.loads(ial("bounce", "build", plan, hall, "--resolution", "1/2", *options, "--out", "both.npz").stdout)
+    assert both["environments"] == ["plan", "hall"]
+    assert (
+        ial("bounce", "build", plan, "--resolution", 0.5, "--out", "small.npz")
+        .stdout.splitlines()[0]
+        .endswith("cells of 0.5 m, bouncing angle 90°")
+    )
+    assert (
+        "note: cells are 0.5 m wide, as those of the map; ial bounce advise"
+        in ial("bounce", "build", plan, "--resolution", 0.5, "--out", "small.npz", "--overwrite").stderr
+    )
+    assert ial("bounce", "simulate", plan, "--resolution", "1/2", "--steps", 5, "--out", "stream.txt").exit_code == 0
+    assert ial("bounce", "search-angle", plan, "--resolution", "1/2", "--headings", 4).exit_code == 0
+    assert ial("bounce", "show", plan, "--resolution", "1/2", "--cell", 1, "--out", "a.png").exit_code == 0
+    assert ial("bounce", "show", "small.npz", plan, "--resolution", "1/2", "--what", "basins", "--out", "b.png").exit_code == 0
+    assert ial("bounce", "advise", plan, "--resolution", "1/2", "--radius", "1/2", "--most-states", 500).exit_code == 0
+
+
+@pytest.mark.parametrize("command", ["build", "simulate", "search-angle", "show", "advise"])
+def test_a_resolution_is_asked_for_where_it_is_needed_and_nowhere_else(
+    refused: Callable[..., str], hall: Path, plan: Path, command: str
+) -> None:
+    out = () if command in ("search-angle", "advise") else ("--out", "out.xyz")
+    assert "plan.png: a picture does not say how large it is; give its resolution" in refused("bounce", command, plan, *out)
+    assert "no environment is a picture; leave it out" in refused("bounce", command, hall, "--resolution", "0.1", *out)
+    assert "--resolution: 'wide' is no number" in refused("bounce", command, plan, "--resolution", "wide", *out)
+    assert "tolerance of a simplification is -1 m" in refused("bounce", command, hall, "--simplify=-1", *out)
+    assert "hall: every part of the free space is narrower than 9 m" in refused("bounce", command, hall, "--simplify", "9", *out)
+
+
+def test_the_embedded_map_has_a_name(ial: Cli, refused: Callable[..., str]) -> None:
+    record = json.loads(ial("bounce", "build", "sample", "--cell", "1/2", "--radius", "1/4", "--out", "f.npz", "--json").stdout)
+    assert record["environments"] == ["sample"]
+    written = json.loads(ial("bounce", "build", sample_map_path(), "--cell", "1/2", "--radius", "1/4", "--out", "g.npz", "--json").stdout)
+    assert {**written, "environments": ["sample"]} == {**record, "knowledge_cycles": written["knowledge_cycles"]}
+    Path("sample").mkdir()
+    assert "sample is the name of the embedded map, and a file or folder here has it, too" in refused("bounce", "advise", "sample")
+
+
+def test_fewer_walls_are_told_and_a_filter_is_drawn_on_them(ial: Cli, refused: Callable[..., str]) -> None:
+    y, x = np.mgrid[:60, :80]
+    cells = np.where((x + 2 * y > 30) & (x > 2) & (x < 78) & (y > 2) & (y < 58), FREE, OCCUPIED).astype(np.uint8)
+    cells[30, 40] = OCCUPIED
+    cells[0, 0] = FREE
+    write_map(OccupancyGrid(cells, 0.1), Path("slope.yaml"))
+    command = ("bounce", "build", "slope.yaml", "--cell", "1/2", "--radius", "1/4", "--simplify", "0.2")
+    first, second = ial(*command, "--out", "f.npz").stdout.splitlines()[:2]
+    record = json.loads(ial(*command, "--out", "g.npz", "--json").stdout)["simplified"]["slope"]
+    expected = simplified(load_environment("slope.yaml"), Fraction(1, 5))
+    assert (record["walls_before"], record["walls"]) == expected.walls
+    assert record["moved_m"] == float(expected.moved_m)
+    before, left = expected.walls
+    assert first == f"slope: simplified by 0.2 m, {left} of {before} walls are left, moved by up to {float(expected.moved_m):.9g} m"
+    assert second == "slope: left out 1 narrow part of the free space (0.01 m²) and 1 small obstacle (0.01 m²)"
+    assert ial("bounce", "show", "f.npz", "slope.yaml", "--simplify", "0.2", "--what", "basins", "--out", "a.png").exit_code == 0
+    message = refused("bounce", "show", "f.npz", "slope.yaml", "--what", "basins", "--out", "b.png")
+    assert "the environment is not the one the filter was built from" in message
+    # A disk does not fit into a part that is wider than the tolerance, and a point does.
+    cells[20:24, :2] = FREE
+    write_map(OccupancyGrid(cells, 0.1), Path("slot.yaml"))
+    for radius, parts in (("0", 1), ("1/4", 2)):
+        made = ial(
+            "bounce", "build", "slot.yaml", "--cell", "1/2", "--radius", radius, "--simplify", "0.1", "--out", f"{parts}.npz", "--json"
+        )
+        assert json.loads(made.stdout)["simplified"]["slot"]["left_out_parts"] == parts
+
+
+def test_steps_beside_those_of_a_robot_are_told(ial: Cli, hall: Path) -> None:
+    said = "steps of the cell map are not those of a robot: "
+    assert said not in ial("bounce", "build", hall, "--angle", 90, "--out", "a.npz").stdout
+    result = ial("bounce", "build", hall, "--angle", 22.5, "--out", "b.npz")
+    assert said + "up to 22.5° aside, lengths up to 41.5 % off\n" in result.stdout
+    record = json.loads(ial("bounce", "build", hall, "--angle", 22.5, "--out", "c.npz", "--json").stdout)
+    assert record["offset_error_deg"] == 22.5
+    assert record["offset_error"] == pytest.approx(2**0.5 - 1)
+    finer = ial("bounce", "build", hall, "--angle", 22.5, "--cell", "1/16", "--step", 1, "--out", "d.npz").stdout
+    # 16 cells at 22.5° are (14.78, 6.12), rounded (15, 6), 21.8°; at 45° (11.3, 11.3), rounded (11, 11), 15.56 cells.
+    assert said + "up to 0.7° aside, lengths up to 2.8 % off\n" in finer
+
+
+@pytest.mark.parametrize(
+    "options", [("--radius", "1/2"), ("--angle", 100, "--turn-error", 2, "--step-error", "0.02", "--count-error", 1), ("--step", "1/2")]
+)
+def test_what_is_advised_can_be_built_and_is_what_was_said(ial: Cli, hall: Path, options: tuple[object, ...]) -> None:
+    record = json.loads(ial("bounce", "advise", hall, *options, "--json").stdout)
+    (row,) = [each for each in (*record["cells"], *record["rays"]) if each["advised"]]
+    printed = ial("bounce", "advise", hall, *options).stdout.splitlines()
+    assert printed[-1] == record["command"]
+    assert printed[-2] == f"take the row marked *: {record['reason']}"
+    (marked,) = [line for line in printed if line.startswith("* ")]
+    assert f"{row['flash_bytes']:,}" in marked.split()
+    assert ial(*shlex.split(record["command"])[1:]).exit_code == 0
+    made = read_filter(Path("hall.npz"))
+    if isinstance(made, PieceFilter):
+        tables = PieceTables.of(made.map, "bounce")
+        assert (row["pieces"], row["flash_bytes"], row["ram_bytes"]) == (len(made.map), tables.flash_bytes, tables.ram_bytes)
+    else:
+        assert isinstance(made, BounceFilter)
+        assert row["states"] == len(made.table) - 1
+        assert row["flash_bytes"] == CTables.of(ExportedFilter.of(made), "bounce").flash_bytes
+
+
+def test_advice_that_cannot_be_given_says_so(ial: Cli, hall: Path, refused: Callable[..., str]) -> None:
+    result = ial("bounce", "advise", hall, "--radius", "9", "--turn-error", 1)
+    assert result.exit_code == 0
+    assert "take none of these: there is no exact filter here; a robot of radius 9 m fits nowhere" in result.stdout
+    record = json.loads(ial("bounce", "advise", hall, "--radius", "1/2", "--turn-error", 1, "--most-states", 9, "--json").stdout)
+    assert "--radius 1/2" in record["command"]
+    assert {each["more_than_states"] for each in record["cells"]} == {9}
+    assert ial("bounce", "advise", hall, "--radius", "1/2", "--turn-error", 1, "--most-states", 9).stdout.count("> 9 ") == 8
+    assert "multiple of 360°" in refused("bounce", "advise", hall, "--angle", "360")
+    assert "radius of the robot is -1" in refused("bounce", "advise", hall, "--radius=-1")
+
+
+def test_progress_is_shown_on_a_terminal_alone(ial: Cli, hall: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert "states" not in ial("bounce", "build", hall, "--out", "a.npz").stderr
+    seen: list[tuple[float, float | None]] = []
+    update = Progress.update
+
+    def watched(bar: Progress, task: Any, **how: Any) -> None:
+        seen.append((how["completed"], how["total"]))
+        update(bar, task, **how)
+
+    monkeypatch.setattr(Progress, "update", watched)
+    monkeypatch.setattr(terminal, "err", Console(file=io.StringIO(), force_terminal=True))
+    record = json.loads(ial("bounce", "build", hall, "--out", "b.npz", "--json").stdout)
+    assert seen == [(record["states"], None)]
+    seen.clear()
+    ial("bounce", "build", hall, "--rays", "--out", "c.npz")
+    assert len(seen) > 1
+    assert seen == [(done, len(seen)) for done in range(1, len(seen) + 1)]
+
+
+def test_a_start_of_which_something_is_known_is_used(ial: Cli, hall: Path, refused: Callable[..., str]) -> None:
+    known = ("--region", "7,1,8,2", "--heading", "80,100")
+    cells = ("--angle", 90, "--cell", 1, "--out", "c.npz")
+    anywhere = ial("bounce", "build", hall, *cells).stdout
+    assert ial("bounce", "build", hall, *cells, *known, "--overwrite").exit_code == 0
+    record = json.loads(ial("bounce", "build", hall, *cells, *known, "--overwrite", "--json").stdout)
+    assert record["configurations"] == 1
+    assert "196 configurations" in anywhere
+    assert "the filter knows where the robot started" in refused("bounce", "run", "c.npz", "--stream", "0001", "--restart")
+    assert "the filter knows where the robot started" in refused("bounce", "export", "c.npz", "--restart", "--out", "c.h")
+    assert ial("bounce", "export", "c.npz", "--out", "c.h").exit_code == 0
+    assert "something is known" in Path("c.h").read_text()
+
+    assert ial("bounce", "build", hall, *REAL, *ROOMS, *known, "--out", "p.npz").exit_code == 0
+    told = json.loads(ial("bounce", "run", "p.npz", "--stream", "0" * 9 + "1", "--json").stdout)
+    assert (told["room"], told["localized_at"]) == ("right", 10)
+    gone = ial("bounce", "run", "p.npz", "--stream", "0" * 20)
+    assert "rejected at observation" in gone.stdout
+    carried = json.loads(ial("bounce", "run", "p.npz", "--stream", "0" * 20 + "1", "--restart", "--json").stdout)
+    assert carried["pieces"] == 10944, "it may be anywhere then"
+    assert ial("bounce", "export", "p.npz", "--out", "p.h").exit_code == 0
+    assert "is where it was said to start" in Path("p.h").read_text()
+    assert "can start in no configuration" in refused("bounce", "build", hall, "--cell", 1, "--region", "20,1,21,2", "--out", "n.npz")
+    assert "can have started nowhere" in refused("bounce", "build", hall, "--rays", "--region", "20,1,21,2", "--out", "n.npz")
+    assert "X0,Y0,X1,Y1" in refused("bounce", "build", hall, "--region", "20,1", "--out", "n.npz")
+    assert "FROM,TO" in refused("bounce", "build", hall, "--heading", "20", "--out", "n.npz")
+    assert "ends before it begins" in refused("bounce", "build", hall, "--heading", "20,10", "--out", "n.npz")
+
+
+def test_a_set_filter_is_exported_as_plain_arrays(ial: Cli, sets: Path) -> None:
+    assert "10944 pieces of walls in a.npz" in ial("bounce", "export", sets, "--out", "a.npz").stdout
+    with np.load("a.npz") as arrays:
+        assert arrays["arc_start"].shape == (10945,)
+        assert arrays["box_m"].shape == (152, 4)
+        assert len(arrays["arc_part"]) == len(arrays["arc_least"]) == len(arrays["arc_most"]) == 42182
+        assert len(arrays["first"]) == 0
+        assert arrays["turn"].tolist() == [19, 21]

@@ -13,7 +13,7 @@ import numpy as np
 
 from ial.contractors.kernels import kernel
 
-DONE, TOO_MANY = 0, 1
+DONE, TOO_MANY, PAUSED = 0, 1, 2
 
 _MIX_1, _MIX_2, _MIX_3 = np.uint64(0x9E3779B97F4A7C15), np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
 _30, _27, _31, _32 = np.uint64(30), np.uint64(27), np.uint64(31), np.uint64(32)
@@ -109,26 +109,17 @@ def _collect(candidates, count, stamps, stamp, out, at, weights, parts):  # type
 
 
 @kernel
-def construct(arcs, begins, weights, parts, most):  # type: ignore[no-untyped-def]
-    """Return everything about the deterministic automaton, its states in the order of a breadth-first search.
+def begun(begins, arcs, weights, parts):  # type: ignore[no-untyped-def]
+    """Return the construction before its first step, as `construct` takes it: the start is the only state.
 
     Parameters
     ----------
-    arcs
-        As in `LabelledGraph`.
     begins
         The vertices in which the robot can start, int32, each once.
+    arcs
+        As in `LabelledGraph`.
     weights, parts
         The weight and the environment of each vertex; of length 0 for one each, and for one environment.
-    most
-        The number of states at which to give up, at most 2³⁰.
-
-    Returns
-    -------
-    tuple
-        Outcome (`DONE` or `TOO_MANY`), number of states, successors (−1 for none), sizes and weights, sums (the third: environments met as
-        bits), number of cycles, their anchors (one state of each), where the set of each anchor starts in an array, that array. Arrays are
-        longer than filled.
     """
     count = len(arcs)
     room = np.int64(256)
@@ -141,7 +132,6 @@ def construct(arcs, begins, weights, parts, most):  # type: ignore[no-untyped-de
     now, later = np.empty(count, dtype=np.int32), np.empty(count, dtype=np.int32)
     now_starts, later_starts = np.empty(count + 1, dtype=np.int32), np.empty(count + 1, dtype=np.int32)
     images = np.empty((2, count), dtype=np.int32)
-    cycles = np.int64(0)
     anchors, anchor_starts, members = np.empty(16, dtype=np.int32), np.empty(17, dtype=np.int64), np.empty(256, dtype=np.int32)
     anchor_starts[0] = 0
 
@@ -149,11 +139,79 @@ def construct(arcs, begins, weights, parts, most):  # type: ignore[no-untyped-de
     end, sums[0, 0], sums[0, 1], sizes[0, 1], sums[0, 2] = _collect(images[0], len(begins), stamps, -2, now, 0, weights, parts)
     sizes[0, 0], parents[0], now_starts[0], now_starts[1] = end, 0, 0, end
     table[np.int64(sums[0, 0]) & (len(table) - 1)] = 0
-    states, level_start, level_stop = np.int64(1), np.int64(0), np.int64(1)
+    # The number of states, those of the level that comes next, and the number of cycles.
+    counts = np.array([1, 0, 1, 0], dtype=np.int64)
+    return (
+        counts,
+        successors,
+        sizes,
+        sums,
+        anchors,
+        anchor_starts,
+        members,
+        parents,
+        table,
+        stamps,
+        now,
+        later,
+        now_starts,
+        later_starts,
+        images,
+    )
+
+
+@kernel
+def construct(arcs, weights, parts, most, visits, work):  # type: ignore[no-untyped-def]
+    """Go on with the deterministic automaton, whose states are in the order of a breadth-first search.
+
+    Parameters
+    ----------
+    arcs, weights, parts
+        As for `begun`.
+    most
+        The number of states at which to give up, at most 2³⁰.
+    visits
+        After so many visits of vertices, pause at the next level of the search.
+    work
+        What `begun` has returned, or an earlier call after its outcome.
+
+    Returns
+    -------
+    tuple
+        Outcome (`DONE`, `TOO_MANY` or `PAUSED`), and the construction: counts (states, the first of the next level, and the one past its
+        last, cycles), successors (−1 for none), sizes and weights, sums (the third: environments met as bits), anchors of cycles (one state
+        of each), where the set of each anchor starts in an array, that array; and what only a further call needs. Arrays are longer than
+        filled, and are used by the next call.
+    """
+    (
+        counts,
+        successors,
+        sizes,
+        sums,
+        anchors,
+        anchor_starts,
+        members,
+        parents,
+        table,
+        stamps,
+        now,
+        later,
+        now_starts,
+        later_starts,
+        images,
+    ) = work
+    states, level_start, level_stop, cycles = counts[0], counts[1], counts[2], counts[3]
+    room = np.int64(len(successors))
+    visited = np.int64(0)
+    outcome = DONE
     while level_start < level_stop:
+        if visited >= visits:
+            outcome = PAUSED
+            break
         end = 0
         for state in range(level_start, level_stop):
             begin, stop = now_starts[state - level_start], now_starts[state - level_start + 1]
+            visited += stop - begin
             still = bumped = 0
             for i in range(begin, stop):
                 arc = arcs[now[i]]
@@ -173,7 +231,24 @@ def construct(arcs, begins, weights, parts, most):  # type: ignore[no-untyped-de
                 slot = _find(table, sums, sizes, first, second, after - end)
                 if table[slot] < 0:
                     if states >= most:
-                        return TOO_MANY, states, successors, sizes, sums, cycles, anchors, anchor_starts, members
+                        counts[0] = states
+                        return TOO_MANY, (
+                            counts,
+                            successors,
+                            sizes,
+                            sums,
+                            anchors,
+                            anchor_starts,
+                            members,
+                            parents,
+                            table,
+                            stamps,
+                            now,
+                            later,
+                            now_starts,
+                            later_starts,
+                            images,
+                        )
                     if states == room:
                         room *= 2
                         successors, parents = _grown_rows(successors, room), _grown(parents, room)
@@ -208,7 +283,24 @@ def construct(arcs, begins, weights, parts, most):  # type: ignore[no-untyped-de
         level_start, level_stop = level_stop, states
         now, later = later, now
         now_starts, later_starts = later_starts, now_starts
-    return DONE, states, successors, sizes, sums, cycles, anchors, anchor_starts, members
+    counts[0], counts[1], counts[2], counts[3] = states, level_start, level_stop, cycles
+    return outcome, (
+        counts,
+        successors,
+        sizes,
+        sums,
+        anchors,
+        anchor_starts,
+        members,
+        parents,
+        table,
+        stamps,
+        now,
+        later,
+        now_starts,
+        later_starts,
+        images,
+    )
 
 
 @kernel

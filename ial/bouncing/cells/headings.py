@@ -102,6 +102,17 @@ class Headings:
         moves.setflags(write=False)
         return moves
 
+    @cached_property
+    def offset_errors(self) -> tuple[float, float]:
+        """By how much offsets are beside the steps they stand for, at most: their direction in degrees, their length as a part of it.
+
+        A robot that is put back to the centre of its cell goes along the offsets; a real one does not.
+        """
+        moves = self.offsets.astype(np.float64)
+        aside = np.degrees(np.arctan2(moves[:, 1], moves[:, 0])) - _FULL_DEG * np.arange(self.count) / self.count
+        longer = np.hypot(moves[:, 0], moves[:, 1]) / float(self.step) - 1.0
+        return float(np.abs((aside + 180.0) % _FULL_DEG - 180.0).max()), float(np.abs(longer).max())
+
 
 @lru_cache(maxsize=2**12)  # headings that differ by their bouncing angle only have the same offsets
 def rounded_cosine(turn: Fraction, length: Fraction) -> int:

@@ -1,6 +1,6 @@
 """`build_filter`: from environments to the filter of a robot in one of them."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 
 import numpy as np
@@ -96,6 +96,8 @@ def build_filter(
     corner: Corner = "segment",
     most_states: int = MOST_STATES,
     start: Start = ANYWHERE,
+    progress: Callable[[int], object] | None = None,
+    most_visits: int | None = None,
 ) -> BounceFilter:
     """Return the filter of a robot that is in one of several environments.
 
@@ -113,8 +115,8 @@ def build_filter(
         When a cell is free, see `rasterize` and `erode`.
     corner
         What a step must not touch, see `passed_cells`.
-    most_states
-        The number of states at which to give up.
+    most_states, progress, most_visits
+        The number of states at which to give up, what is told how many were found, and how much work is allowed, see `determinize`.
     start
         What is known of the start, in each of the environments: the centre of the cell is in the region, and the heading is one of these.
 
@@ -124,13 +126,31 @@ def build_filter(
         If there is no environment, a number cannot be meant, the width of a cell is not known, or the robot can start nowhere.
     MapError
         If an environment has no free cell, or there would be too many.
-    FilterError
-        If there would be too many states.
+    TooManyStatesError
+        If there would be too many states, or too much work to find them.
     """
     rasters = all_free_cells(environments, cell, radius, rule)
+    return filter_of_cells(rasters, headings, radius, rule, corner, most_states, start, progress, most_visits)
+
+
+def filter_of_cells(
+    rasters: Mapping[str, Raster],
+    headings: Headings,
+    radius: Fraction,
+    rule: Rule,
+    corner: Corner,
+    most_states: int,
+    start: Start,
+    progress: Callable[[int], object] | None,
+    most_visits: int | None,
+) -> BounceFilter:
+    """Return the filter of a robot in one of several environments whose free cells are known already, see `all_free_cells`.
+
+    Parameters and errors are those of `build_filter`; the radius and the rule are those that the cells were made with.
+    """
     maps = [CellMap(raster, headings, corner, merge=True) for raster in rasters.values()]
     graph = disjoint_union([each.graph for each in maps])
     begins = [each.beginnings(start) + np.int32(first) for each, first in zip(maps, graph.starts, strict=False)]
-    automaton = determinize(graph, most_states, begins=np.concatenate(begins))
-    setting = Setting.of_rasters(rasters, headings, radius, rule, corner, start=start)
+    automaton = determinize(graph, most_states, begins=np.concatenate(begins), progress=progress, most_visits=most_visits)
+    setting = Setting.of_rasters(dict(rasters), headings, radius, rule, corner, start=start)
     return BounceFilter(FilterTable.of(automaton), CyclePlaces.of(automaton, maps), setting)

@@ -4,6 +4,7 @@ A set is then a row of bits, which a microcontroller can hold, and a bump takes 
 coarser than those of `RayModel`, which cuts them anew at each bump.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -78,6 +79,7 @@ class PieceMap:
         part_m: Fraction,
         headings: int,
         radius_m: Fraction = Fraction(0),
+        progress: Callable[[int, int], object] | None = None,
     ) -> "PieceMap":
         """Return the map of a robot in an environment.
 
@@ -89,6 +91,8 @@ class PieceMap:
             How wide a part of a wall is, at most, in metres.
         headings
             How many intervals of headings there are, at least 32.
+        progress
+            Called with how many numbers of steps were looked at, and of how many.
 
         Raises
         ------
@@ -99,19 +103,17 @@ class PieceMap:
         MapError
             If there are too many walls, or the robot is too large.
         """
-        if part_m <= 0:
-            raise ConfigError(f"parts of walls are {float(part_m):g} m wide; give a width greater than 0")
         if headings < 32:
             raise ConfigError(f"{headings} intervals of headings are too wide to follow rays; give at least 32")
         model = RayModel(environment, bounce_deg, step_m, bounds, _NEVER_COARSER, radius_m=radius_m)
-        parts = np.where(model.walls.stopping, np.ceil(model.walls.lengths / float(part_m)), 0.0).astype(np.int64)
+        parts = parts_of(model.walls, part_m)
         if parts.sum() * headings > MOST_PIECES:
             raise FilterError(f"there would be {parts.sum() * headings} pieces; use fewer headings or wider parts, at most {MOST_PIECES}")
         part_deg = Fraction(_FULL_DEG, headings)
         turns = floor((bounce_deg - bounds.turn_deg) / part_deg), ceil((bounce_deg + bounds.turn_deg) / part_deg)
         # A leg is not longer than the environment, so after so many steps no robot is still on its way.
         longest = ceil(Fraction(model.walls.scale) / (step_m * (1 - bounds.step))) + bounds.count + 1
-        begins, ends, counts = _hits(model, grid_pieces(parts, headings), parts, longest)
+        begins, ends, counts = _hits(model, grid_pieces(parts, headings), parts, longest, progress)
         keys, at = np.unique(begins * parts.sum() + ends, return_inverse=True)
         least, most = np.full(len(keys), np.iinfo(np.int32).max, dtype=np.int32), np.zeros(len(keys), dtype=np.int32)
         np.minimum.at(least, at.reshape(-1), counts)
@@ -159,6 +161,19 @@ class PieceMap:
         return x0.lower, y0.lower, x1.upper, y1.upper
 
 
+def parts_of(walls: Walls, part_m: Fraction) -> npt.NDArray[np.int64]:
+    """Return into how many parts, not wider than so many metres, each wall is divided; none where no robot can bump.
+
+    Raises
+    ------
+    ConfigError
+        If the width is not positive.
+    """
+    if part_m <= 0:
+        raise ConfigError(f"parts of walls are {float(part_m):g} m wide; give a width greater than 0")
+    return np.where(walls.stopping, np.ceil(walls.lengths / float(part_m)), 0.0).astype(np.int64)
+
+
 def grid_pieces(parts: npt.NDArray[np.int64], headings: int) -> RaySet:
     """Return all pieces; each holds its part of the wall and its headings, rounded outward."""
     walls = np.repeat(np.arange(len(parts), dtype=np.int32), parts)
@@ -172,7 +187,9 @@ def grid_pieces(parts: npt.NDArray[np.int64], headings: int) -> RaySet:
     return RaySet(np.tile(walls, headings), lower, upper, none, none > 0, np.full(count, np.inf))
 
 
-def _hits(model: RayModel, pieces: RaySet, parts: npt.NDArray[np.int64], longest: int) -> tuple[npt.NDArray[np.int64], ...]:
+def _hits(
+    model: RayModel, pieces: RaySet, parts: npt.NDArray[np.int64], longest: int, progress: Callable[[int, int], object] | None
+) -> tuple[npt.NDArray[np.int64], ...]:
     """Return which parts robots can touch at a bump that left from which piece, and after how many steps; repeats are possible."""
     standing = model.may_stand(pieces)
     if not standing.any():
@@ -190,6 +207,8 @@ def _hits(model: RayModel, pieces: RaySet, parts: npt.NDArray[np.int64], longest
         begins.append(leaving[pieces_of[rows[kept]]])
         ends.append(to[kept])
         counts.append(np.full(len(to[kept]), count, dtype=np.int64))
+        if progress is not None:
+            progress(count + 1, longest)
     return np.concatenate(begins), np.concatenate(ends), np.concatenate(counts)
 
 

@@ -2,7 +2,7 @@
 
 import shlex
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -14,8 +14,12 @@ from ial.cli.bounce.options import (
     EnvironmentPaths,
     FreeRule,
     HeadingCount,
+    HeadingsKnown,
     MostStates,
     Radius,
+    Region,
+    Resolution,
+    Simplify,
     StepError,
     StepLength,
     TurnError,
@@ -24,19 +28,12 @@ from ial.cli.bounce.options import (
     number,
     step_cells,
 )
-from ial.cli.bounce.options import environments as read_environments
 from ial.cli.bounce.options import goal as read_goal
+from ial.cli.bounce.options import start as read_start
 from ial.cli.shell.options import Json, Overwrite
 from ial.cli.shell.outputs import check_outputs
-from ial.cli.shell.terminal import say, say_json, shown
+from ial.cli.shell.terminal import counting, remark, say, say_json, shown
 from ial.errors import ConfigError
-
-if TYPE_CHECKING:
-    from fractions import Fraction
-
-    from ial.bouncing.execution_bounds import ExecutionBounds
-    from ial.bouncing.filters.goal import Goal
-    from ial.maps.polygons.environment import Environment
 
 _HEADINGS = 72
 
@@ -65,6 +62,10 @@ def build(
         str | None,
         typer.Option(metavar="METRES", help="With --rays, no rooms: who is in a square so wide is localized; 1 if left out."),
     ] = None,
+    region: Region = None,
+    headings_known: HeadingsKnown = None,
+    resolution: Resolution = None,
+    simplify: Simplify = None,
     overwrite: Overwrite = False,
     as_json: Json = False,
 ) -> None:
@@ -76,10 +77,13 @@ def build(
     from ial.bouncing.execution_bounds import ExecutionBounds
     from ial.bouncing.filters.building import build_filter
     from ial.bouncing.filters.filter_file import write_filter
+    from ial.cli.bounce.piece_build import build_pieces
     from ial.cli.bounce.report import about, lines
+    from ial.cli.bounce.surroundings import Surroundings
 
     check_outputs([out], environments, overwrite)
-    loaded = read_environments(environments)
+    surroundings = Surroundings.read(environments, resolution, simplify, number(radius, "--radius"))
+    loaded = surroundings.environments
     bounds = execution_bounds(turn_error, step_error, count_error)
     if rays or bounds != ExecutionBounds():
         if (cell, rule, corner, most_states) != (None, "centre", "segment", 2**24):
@@ -89,46 +93,23 @@ def build(
         goal = read_goal(rooms or [], within)
         robot = number(angle, "--angle"), number(step or "1/4", "--step"), bounds
         grid = number("1/4" if part is None else part, "--part"), headings or _HEADINGS, number(radius, "--radius")
-        _build_pieces(loaded, robot, grid, goal, out, as_json)
+        build_pieces(surroundings, robot, grid, goal, read_start(region, headings_known), out, as_json)
         return
     if rooms or within is not None or part is not None:
         raise ConfigError("--room, --within and --part are for robots with real geometry; give --rays or an error, too")
-    width = cell_width(loaded, cell)
+    width, start = cell_width(loaded, cell), read_start(region, headings_known)
+    if start.region is not None and len(loaded) > 1:
+        raise ConfigError("--region is a place in one environment; give one")
     lattice = Headings.of_angle(number(angle, "--angle"), headings, step_cells(step, loaded, width))
-    made = build_filter(loaded, lattice, width, number(radius, "--radius"), rule, corner, most_states)
+    with counting("states") as progress:
+        made = build_filter(loaded, lattice, width, number(radius, "--radius"), rule, corner, most_states, start, progress)
     write_filter(made, out)
+    if width is None:
+        said = f"cells are {float(made.setting.cell):g} m wide, as those of the map; ial bounce advise shows what other widths come to"
+        remark("note", said, "cyan")
     if as_json:
-        say_json(about(made))
+        say_json({**about(made), "simplified": surroundings.record()})
         return
-    for line in lines(about(made)):
-        say(line)
-    say(f"filter in {shown(out)}; use it with: ial bounce run {shlex.quote(str(shown(out)))} --stream 0010001")
-
-
-def _build_pieces(
-    loaded: "dict[str, Environment]",
-    robot: "tuple[Fraction, Fraction, ExecutionBounds]",
-    grid: "tuple[Fraction, int, Fraction]",
-    goal: "Goal",
-    out: Path,
-    as_json: bool,
-) -> None:
-    """Build the filter of a robot with real geometry.
-
-    The robot is its bouncing angle, its step and the bounds of its errors; the grid the width of parts, the headings and the radius.
-    """
-    from ial.bouncing.filters.filter_file import write_filter
-    from ial.bouncing.filters.piece_filter import PieceFilter
-    from ial.bouncing.rays.piece_map import PieceMap
-    from ial.cli.bounce.piece_report import about, lines
-
-    (name, environment) = next(iter(loaded.items()))
-    made = PieceFilter(PieceMap.of(environment, *robot, *grid), name, *robot, goal, grid[-1])
-    write_filter(made, out)
-    record = about(made)
-    if as_json:
-        say_json(record)
-        return
-    for line in lines(record):
+    for line in (*surroundings.lines(), *lines(about(made))):
         say(line)
     say(f"filter in {shown(out)}; use it with: ial bounce run {shlex.quote(str(shown(out)))} --stream 0010001")

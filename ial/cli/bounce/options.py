@@ -1,4 +1,4 @@
-"""Options that several commands of `ial bounce` share, and the environments they are about."""
+"""Options that several commands of `ial bounce` share, and what they mean."""
 
 from collections.abc import Sequence
 from fractions import Fraction
@@ -10,10 +10,16 @@ import typer
 if TYPE_CHECKING:
     from ial.bouncing.execution_bounds import ExecutionBounds
     from ial.bouncing.filters.goal import Goal
+    from ial.bouncing.start import Start
     from ial.maps.polygons.environment import Environment
 
-EnvironmentPaths = Annotated[
-    list[Path], typer.Argument(metavar="ENV", help="Polygons (.json, .wkt, .geojson, .svg) or a map.yaml; several if it may be in any.")
+_ENVIRONMENT = "Polygons (.json, .wkt, .geojson, .svg), a map.yaml, a picture (.png, .pgm, .jpg, .bmp), or sample, the embedded map"
+EnvironmentPath = Annotated[Path, typer.Argument(metavar="ENV", help=f"{_ENVIRONMENT}.")]
+EnvironmentPaths = Annotated[list[Path], typer.Argument(metavar="ENV", help=f"{_ENVIRONMENT}; several if it may be in any.")]
+Resolution = Annotated[str | None, typer.Option("--resolution", metavar="METRES", help="The width of a pixel, if ENV is a picture.")]
+Simplify = Annotated[
+    str | None,
+    typer.Option("--simplify", metavar="METRES", help="Use fewer walls, which move by so much at most; narrower parts are left out."),
 ]
 Angle = Annotated[str, typer.Option("--angle", metavar="DEGREES", help="The bouncing angle, counter-clockwise: 90, 22.5 or 45/2.")]
 Cell = Annotated[
@@ -31,6 +37,13 @@ CornerPolicy = Annotated[
 TurnError = Annotated[str, typer.Option("--turn-error", metavar="DEGREES", help="Bound of the error of a turn.")]
 StepError = Annotated[str, typer.Option("--step-error", metavar="PART", help="Bound of the error of a step, as a part of it: 0.02.")]
 CountError = Annotated[int, typer.Option("--count-error", metavar="N", help="Bound of the error of the number of steps between bumps.")]
+Region = Annotated[
+    str | None, typer.Option("--region", metavar="X0,Y0,X1,Y1", help="Where it starts: a rectangle; anywhere if it is left out.")
+]
+HeadingsKnown = Annotated[
+    list[str] | None,
+    typer.Option("--heading", metavar="FROM,TO", help="In which headings it starts, in degrees counter-clockwise; may be repeated."),
+]
 MostStates = Annotated[int, typer.Option("--most-states", min=1, metavar="N", help="Give up at so many states.")]
 
 
@@ -49,24 +62,6 @@ def number(text: str, option: str) -> Fraction:
         return exact_number(text, option)
     except MapError as error:
         raise ConfigError(str(error)) from None
-
-
-def environments(paths: Sequence[Path]) -> "dict[str, Environment]":
-    """Read environments; each is named after its file.
-
-    Raises
-    ------
-    ConfigError
-        If two have the same name.
-    MapError
-        If one cannot be read.
-    """
-    from ial.errors import ConfigError
-    from ial.maps.polygons.environment import load_environment
-
-    if len({path.stem for path in paths}) < len(paths):
-        raise ConfigError("two environments have the same name; give each file a name of its own, since the filter tells them by it")
-    return {path.stem: load_environment(path) for path in paths}
 
 
 def cell_width(loaded: "dict[str, Environment]", cell: str | None) -> Fraction | None:
@@ -125,3 +120,29 @@ def goal(rooms: Sequence[str], within: str | None) -> "Goal":
         read.append(Room(name, x0, y0, x1, y1))
     width = None if read and within is None else number("1" if within is None else within, "--within")
     return Goal(tuple(read), width)
+
+
+def start(region: str | None, headings: Sequence[str] | None) -> "Start":
+    """Return what is known of the start of a robot.
+
+    Raises
+    ------
+    ConfigError
+        If one of the options cannot be read or meant.
+    """
+    from ial.bouncing.start import Start
+    from ial.errors import ConfigError
+
+    place = None
+    if region is not None:
+        if region.count(",") != 3:
+            raise ConfigError(f"--region is {region!r}; give X0,Y0,X1,Y1: the least and the greatest coordinates in metres")
+        x0, y0, x1, y1 = (number(part, "--region") for part in region.split(","))
+        place = (x0, y0, x1, y1)
+    known = []
+    for text in headings or []:
+        if text.count(",") != 1:
+            raise ConfigError(f"--heading is {text!r}; give FROM,TO in degrees, counter-clockwise")
+        low, high = (number(part, "--heading") for part in text.split(","))
+        known.append((low, high))
+    return Start(place, tuple(known))

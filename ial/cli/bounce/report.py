@@ -1,5 +1,6 @@
 """What `ial bounce` says about a filter."""
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -18,6 +19,8 @@ def about(made: BounceFilter) -> dict[str, Any]:
         "bounce_deg": float(setting.headings.bounce_deg),
         "headings": setting.headings.count,
         "step_m": float(setting.headings.step * setting.cell),
+        "offset_error_deg": setting.headings.offset_errors[0],
+        "offset_error": setting.headings.offset_errors[1],
         "radius_m": float(setting.radius),
         "configurations": int(table.uncertainty[0]),
         "trapped": made.trapped,
@@ -48,5 +51,19 @@ def lines(record: Mapping[str, Any]) -> Iterator[str]:
         if sizes[0] < sizes[-1]
         else (f"a localized robot is in {sizes[0]} configuration{'s' * (sizes[0] != 1)}")
     )
+    if aside := offsets_aside(record["offset_error_deg"], record["offset_error"]):
+        yield f"steps of the cell map are not those of a robot: {aside}"
     if record["trapped"]:
         yield f"in {record['trapped']} configurations the robot is trapped: it can only turn on the spot"
+
+
+def offsets_aside(angle_deg: float, length: float) -> str:
+    """Return in words by how much steps of a cell map are beside real ones, rounded up; nothing if that is below 1° and 1 %."""
+    if angle_deg < 1.0 and length < 0.01:
+        return ""
+    return f"up to {_up(angle_deg):g}° aside, lengths up to {_up(100.0 * length):g} % off"
+
+
+def _up(value: float) -> float:
+    """Return a number rounded up to tenths; what is a tenth but for its last bits stays one."""
+    return math.ceil(round(10.0 * value, 6)) / 10.0

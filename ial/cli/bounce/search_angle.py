@@ -12,12 +12,13 @@ from ial.cli.bounce.options import (
     FreeRule,
     MostStates,
     Radius,
+    Resolution,
+    Simplify,
     StepLength,
     cell_width,
     number,
     step_cells,
 )
-from ial.cli.bounce.options import environments as read_environments
 from ial.cli.shell.options import Json
 from ial.cli.shell.terminal import out, say, say_json
 
@@ -38,21 +39,28 @@ def search_angle(
     rule: FreeRule = "centre",
     corner: CornerPolicy = "segment",
     most_states: MostStates = 2**24,
+    resolution: Resolution = None,
+    simplify: Simplify = None,
     as_json: Json = False,
 ) -> None:
     """Find the bouncing angle that localizes best: least uncertainty at worst, then on average, then fewest angles and observations."""
     from ial.bouncing.filters.building import all_free_cells
     from ial.bouncing.planning.angle_search import search_angles
+    from ial.cli.bounce.surroundings import Surroundings
 
-    loaded = read_environments(environments)
+    surroundings = Surroundings.read(environments, resolution, simplify, number(radius, "--radius"))
+    loaded = surroundings.environments
     width = cell_width(loaded, cell)
     rasters = all_free_cells(loaded, width, number(radius, "--radius"), rule)
     chosen = None if angle is None else [number(each, "--angle") for each in angle]
     moved = step_cells(step, loaded, width)
     outcomes = search_angles(list(rasters.values()), headings, moved, corner, chosen, sequence, most_states)
     if as_json:
-        say_json({"environments": list(loaded), "headings": headings, "best": _record(outcomes[0]), "sequences": [*map(_record, outcomes)]})
+        record = {"environments": list(loaded), "headings": headings, "simplified": surroundings.record()}
+        say_json({**record, "best": _record(outcomes[0]), "sequences": [*map(_record, outcomes)]})
         return
+    for line in surroundings.lines():
+        say(line)
     configurations = headings * sum(int(each.free.sum()) for each in rasters.values())
     cells_m = float(next(iter(rasters.values())).cell)
     say(f"{', '.join(loaded)}: {configurations} configurations, {headings} headings, cells of {cells_m:g} m")

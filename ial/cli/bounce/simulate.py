@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ial.cli.bounce.options import CountError, StepError, TurnError, execution_bounds, number
+from ial.cli.bounce.options import CountError, EnvironmentPath, Resolution, Simplify, StepError, TurnError, execution_bounds, number
 from ial.cli.shell.options import Overwrite
 from ial.cli.shell.outputs import check_outputs
 from ial.cli.shell.terminal import say, shown
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def simulate(
-    environment: Annotated[Path, typer.Argument(metavar="ENV", help="Polygons (.json, .wkt, .geojson, .svg) or a map.yaml.")],
+    environment: EnvironmentPath,
     out: Annotated[Path | None, typer.Option(metavar="STREAM", help="The text file of 0 and 1 to write.")] = None,
     log: Annotated[Path | None, typer.Option(metavar="FILE", help="The log of bumps with times to write, .csv or .jsonl.")] = None,
     angle: Annotated[str, typer.Option(metavar="DEGREES", help="The bouncing angle, counter-clockwise: 90, 22.5 or 45/2.")] = "90",
@@ -38,6 +38,8 @@ def simulate(
         str | None, typer.Option(metavar="S", help="With --log: bound of the error of the time driven between bumps.")
     ] = None,
     truth: Annotated[Path | None, typer.Option(metavar="CSV", help="Where to write the pose after each observation.")] = None,
+    resolution: Resolution = None,
+    simplify: Simplify = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Drive a bouncing robot through an environment, with real geometry and errors within bounds, and write down what it observes."""
@@ -47,16 +49,17 @@ def simulate(
     from ial.bouncing.rays.real_robot import RealRobot
     from ial.bouncing.simulated_log import simulated_log
     from ial.bouncing.stream_file import write_stream, write_truth
-    from ial.maps.polygons.environment import load_environment
+    from ial.cli.bounce.surroundings import Surroundings
 
     if out is None and log is None:
         raise ConfigError("nothing is to be written; give --out STREAM, --log FILE, or both")
     check_outputs([each for each in (out, log, truth) if each is not None], [environment], overwrite)
+    surroundings = Surroundings.read([environment], resolution, simplify, number(radius, "--radius"))
+    (loaded,) = surroundings.environments.values()
     bounds = execution_bounds(turn_error, step_error, count_error)
     timing = _timing(log, speed, turn_time, clock_error, bounds.step)
     if log is not None:
         log_form(log)
-    loaded = load_environment(environment)
     place = None
     if start is not None:
         x, y, heading = (number(text, "--start") for text in start)
@@ -68,6 +71,8 @@ def simulate(
     if timing is not None:
         known = None if place is None else (place[0], place[1], place[2] * 360)
         events = simulated_log((x_m, y_m), poses, timing, seed, known)
+    for line in surroundings.lines():
+        say(line)
     if out is not None:
         write_stream((pose.observation for pose in poses), out)
         say(f"{len(poses)} observations, {bumps} of them bumps, in {shown(out)}")

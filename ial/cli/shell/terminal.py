@@ -4,7 +4,7 @@ import json
 import logging
 import os
 import warnings
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeVar
@@ -64,14 +64,29 @@ def remarks() -> Iterator[None]:
         logger.propagate = propagate
 
 
+def _bar() -> Progress:
+    columns = (SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    return Progress(*columns, console=err, transient=True)
+
+
 def progress(items: Iterable[Item], total: int | None, label: str) -> Iterator[Item]:
     """Yield the items, with a bar on stderr if that is a terminal."""
     if not err.is_terminal:
         yield from items
         return
-    columns = (SpinnerColumn(), TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=err, transient=True) as bar:
+    with _bar() as bar:
         yield from bar.track(items, total=total, description=label)
+
+
+@contextmanager
+def counting(label: str) -> Iterator[Callable[..., None]]:
+    """Give a function that shows how many are done, and of how many if that is known, as a bar on stderr if that is a terminal."""
+    if not err.is_terminal:
+        yield lambda done, total=None: None
+        return
+    with _bar() as bar:
+        task = bar.add_task(label, total=None)
+        yield lambda done, total=None: bar.update(task, completed=done, total=total)
 
 
 def shown(path: Path) -> str:

@@ -69,15 +69,14 @@ def set_page(
     if not sets:
         raise StreamError("the robot has not bumped yet, so it can be anywhere; give observations with a bump")
     shown = moments(len(sets))
-    what = "place of a disk's centre" if made.radius_m else "place of a point"
-    keys = [Line2D([], [], color=_LEFT, linewidth=4.0, label=f"left: {what} at the bump")]
+    what = "centre of the disk" if made.radius_m else "point"
+    keys = [Line2D([], [], color=_LEFT, linewidth=4.0, label=f"where the {what} can be")]
     if truth is not None:
-        keys.append(Line2D([], [], color=TRUTH, linewidth=1.3, marker=">", markersize=7, label="the true robot, and its way"))
+        keys.append(Line2D([], [], color=TRUTH, linewidth=1.3, marker=">", markersize=7, label="where it is, and its way"))
     x0, y0, x1, y1 = map(float, environment.bounds)
-    remark = (
-        f"{made.bounce_deg}° ± {float(made.bounds.turn_deg):g}°, steps of {float(made.step_m):g} m ± {float(100 * made.bounds.step):g} %, "
-    )
-    remark += f"counts ± {made.bounds.count}; wedges: headings after the turn, where there are few; paler: fewer headings; axes in m"
+    bounds, step = made.bounds, f"{float(made.step_m):g} m ± {float(100 * made.bounds.step):g} %"
+    remark = f"{float(made.bounce_deg):g}° ± {float(bounds.turn_deg):g}°, steps of {step}, counts ± {bounds.count}; "
+    remark += "wedges: headings after the turn, where there are few; paler: fewer headings; axes in m"
     page = BouncePage(len(shown), (y1 - y0) / (x1 - x0), f"{made.name[:70]}: what is left after {len(sets)} bumps", remark, keys)
     for axes, bump in zip(page.panels, shown, strict=True):
         at, states = sets[bump - 1]

@@ -3,7 +3,8 @@ import math
 import numpy as np
 import pytest
 
-from ial.bouncing.automata.determinization import determinize
+from ial.bouncing.automata import determinization
+from ial.bouncing.automata.determinization import TooManyStatesError, determinize
 from ial.bouncing.cells.graph import LabelledGraph, disjoint_union
 from ial.errors import FilterError
 from tests.bouncing.worlds import cell_map, drawn, random_mask, twin_information_states
@@ -71,3 +72,45 @@ def test_a_robot_that_only_turns_is_in_a_cycle_at_once() -> None:
     automaton = determinize(cell_map(drawn(".")).graph)
     assert (len(automaton), automaton.depth, automaton.successors.tolist()) == (1, 0, [[-1, 0]])
     assert automaton.cycles.uncertainty.tolist() == [4]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_construction_that_pauses_at_every_level_is_the_same(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    graph = cell_map(random_mask(seed, 9, 11), 135, 8).graph
+    whole = determinize(graph)
+    told: list[int] = []
+    monkeypatch.setattr(determinization, "_VISITS", 1)
+    paused = determinize(graph, verify=True, progress=told.append)
+    assert len(told) > 5
+    assert told == sorted(told)
+    assert told[-1] == len(whole)
+    for name in ("successors", "sizes", "uncertainty", "environments", "colours"):
+        assert (getattr(paused, name) == getattr(whole, name)).all()
+    for name in ("anchors", "lengths", "starts", "members"):
+        assert (getattr(paused.cycles, name) == getattr(whole.cycles, name)).all()
+    assert paused.depth == whole.depth
+
+
+def test_the_number_of_states_that_is_given_up_at_is_true() -> None:
+    graph = cell_map(random_mask(3, 9, 11), 135, 8).graph
+    states = len(determinize(graph))
+    assert len(determinize(graph, most_states=states)) == states
+    for most in (1, 2, states // 2, states - 1):
+        with pytest.raises(TooManyStatesError, match=rf"more than {most} states; .* or allow more states; ial bounce advise") as caught:
+            determinize(graph, most_states=most)
+        assert caught.value.states == most
+    assert len(determinize(graph, most_states=2**40)) == states
+
+
+def test_the_work_may_be_limited(monkeypatch: pytest.MonkeyPatch) -> None:
+    graph = cell_map(random_mask(3, 9, 11), 135, 8).graph
+    states = len(determinize(graph))
+    monkeypatch.setattr(determinization, "_VISITS", 100)
+    seen = []
+    for visits in (1, len(graph) + 1, 2 * len(graph)):
+        with pytest.raises(TooManyStatesError, match="the work that was allowed for it is done") as caught:
+            determinize(graph, most_visits=visits)
+        assert caught.value.states < states
+        seen.append(caught.value.states)
+    assert 1 <= seen[0] <= seen[1] < seen[2]
+    assert len(determinize(graph, most_visits=10**9)) == states

@@ -79,3 +79,31 @@ def test_an_angle_needs_as_many_headings() -> None:
 def test_bad_headings_are_refused(arguments: tuple[Fraction, int, Fraction], message: str) -> None:
     with pytest.raises(ConfigError, match=message):
         Headings.of_angle(*arguments)
+
+
+@pytest.mark.parametrize(
+    ("angle", "count", "step", "aside_deg", "length"),
+    [
+        (90, None, 1, 0.0, 0.0),
+        (90, None, 7, 0.0, 0.0),
+        (45, None, 1, 0.0, math.sqrt(2) - 1),
+        (Fraction(45, 2), None, 1, 22.5, math.sqrt(2) - 1),
+        (90, None, Fraction(3, 4), 0.0, 1 / 3),
+        (90, 36, 10**6, 0.0, 0.0),
+    ],
+)
+def test_how_far_offsets_are_beside_steps(angle: Fraction, count: int | None, step: Fraction, aside_deg: float, length: float) -> None:
+    errors = Headings.of_angle(Fraction(angle), count, Fraction(step)).offset_errors
+    assert errors == pytest.approx((aside_deg, length), abs=1e-4)
+    if aside_deg == length == 0.0 and count is None:
+        assert errors == (0.0, 0.0)
+
+
+@given(st.integers(1, 720), st.fractions(1, 40, max_denominator=6))
+def test_no_offset_is_further_beside_its_step_than_is_said(count: int, step: Fraction) -> None:
+    headings = Headings(count, 1, step) if count > 1 else Headings(2, 1, step)
+    degrees, length = headings.offset_errors
+    for heading, (x, y) in enumerate(headings.offsets.tolist()):
+        turn = complex(x, y) / complex(math.cos(math.tau * heading / headings.count), math.sin(math.tau * heading / headings.count))
+        assert abs(math.degrees(math.atan2(turn.imag, turn.real))) <= degrees + 1e-9
+        assert abs(abs(turn) / float(step) - 1.0) <= length + 1e-9

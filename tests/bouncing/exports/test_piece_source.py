@@ -10,9 +10,12 @@ import pytest
 from ial.bouncing.execution_bounds import ExecutionBounds
 from ial.bouncing.exports import c_array
 from ial.bouncing.exports.piece_source import PieceTables, c_piece_header
+from ial.bouncing.rays.first_bump import FirstBumps
+from ial.bouncing.rays.legs import Legs
 from ial.bouncing.rays.piece_map import PieceMap
 from ial.bouncing.rays.piece_model import PieceModel
 from ial.bouncing.rays.real_robot import RealRobot
+from ial.bouncing.start import Start
 from ial.errors import ConfigError, FilterError
 from tests.bouncing.exports import avr
 from tests.bouncing.exports.rooms import random_streams
@@ -66,9 +69,9 @@ def own_streams(environment: str, count: int, steps: int, radius: Fraction = Fra
     return [[pose.observation for pose in islice(robot.run(), steps)] for robot in robots]
 
 
-def expected(map_: PieceMap, streams: list[list[int]]) -> list[list[int]]:
+def expected(map_: PieceMap, streams: list[list[int]], first: FirstBumps | None = None) -> list[list[int]]:
     """What the set filter says in Python."""
-    model, boxes, parts = PieceModel(map_), map_.boxes_mm, int(map_.parts.sum())
+    model, boxes, parts = PieceModel(map_, first), map_.boxes_mm, int(map_.parts.sum())
     rows = []
     for stream in streams:
         states = model.universe()
@@ -114,6 +117,18 @@ def test_robots_with_errors_are_followed_in_c(tmp_path: Path, world: str, radius
     assert rows == expected(made, streams)
     assert all(row[0] for row in rows)
     assert min(row[1] for row in rows) < 200
+
+
+@pytest.mark.slow
+def test_a_start_of_which_something_is_known_is_the_same_in_c(room: PieceMap, tmp_path: Path) -> None:
+    made = PieceMap.of(WORLDS["hall"], Fraction(100), Fraction(1, 4), SOME, Fraction(1, 2), 36)
+    legs = Legs(made.walls, Fraction(100), Fraction(1, 4), SOME)
+    first = FirstBumps.of(made, legs, Start((Fraction(1), Fraction(1), Fraction(2), Fraction(2)), ((Fraction(0), Fraction(20)),)))
+    streams = [*random_streams(60), *([int(at == count) for at in range(count + 1)] for count in range(60))]
+    rows = replayed(compiled("gcc", c_piece_header(made, "room", first), REPLAY, tmp_path), streams)
+    wanted = expected(made, streams, first)
+    assert rows == wanted
+    assert {row[0] for row in wanted} == {0, 1}
 
 
 @pytest.mark.slow

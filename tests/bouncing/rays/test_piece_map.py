@@ -54,6 +54,13 @@ def test_many_walls_are_no_reason_to_refuse() -> None:
     assert (np.diff(made.starts) > 0).all()
 
 
+def test_what_is_done_is_told() -> None:
+    told: list[tuple[int, int]] = []
+    made = PieceMap.of(ROOM, Fraction(100), Fraction(1), NONE, Fraction(1), 36, progress=lambda *each: told.append(each))
+    assert told == [(done, len(told)) for done in range(1, len(told) + 1)]
+    assert len(told) > made.most.max()
+
+
 @pytest.mark.parametrize(
     ("change", "error", "message"),
     [

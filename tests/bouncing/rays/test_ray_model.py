@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 
 from ial.bouncing.execution_bounds import ExecutionBounds
-from ial.bouncing.rays.legs import radians
 from ial.bouncing.rays.ray_grid import coarsened
 from ial.bouncing.rays.ray_model import RayModel
 from ial.bouncing.rays.ray_set import RaySet
@@ -113,22 +112,6 @@ def test_a_step_is_within_what_is_predicted() -> None:
     assert robot.pose[0] >= 0
 
 
-def test_the_way_of_a_leg_lies_between_exact_bounds() -> None:
-    """k steps of at least (1 − e)·h and at most (1 + e)·h, give or take what the clock may have missed, and part of another step."""
-    for step, error, missed in (
-        (Fraction(1, 10), Fraction(1, 50), 1),
-        (Fraction(1, 3), Fraction(0), 0),
-        (Fraction(7, 9), Fraction(1, 7), 2),
-    ):
-        model = RayModel(ROOM, Fraction(90), step, ExecutionBounds(Fraction(0), error, missed), most_pieces=4000)
-        start = model.leg(model.universe(), 1).only(np.arange(1))
-        for count in range(200):
-            states = RaySet(start.walls, start.lower, start.upper, np.array([count], np.int32), start.arriving, np.array([np.inf]))
-            ((least,), (most,)) = model.legs.ways(states)
-            assert Fraction(least) <= max(count - missed, 0) * step * (1 - error) <= Fraction(least) + Fraction(1, 10**9)
-            assert Fraction(most) - Fraction(1, 10**9) <= (count + missed + 1) * step * (1 + error) <= Fraction(most)
-
-
 @pytest.mark.parametrize("seed", range(6))
 def test_a_robot_that_drove_k_steps_exactly_is_in_its_place(seed: int) -> None:
     """Places are compared in 60 digits, in the frame of the environment, which lies far away."""
@@ -149,15 +132,6 @@ def test_a_robot_that_drove_k_steps_exactly_is_in_its_place(seed: int) -> None:
             for side in (0, 1):
                 assert exact(float(box.lower[0, side])) <= place[side] <= exact(float(box.upper[0, side]))
                 assert box.upper[0, side] - box.lower[0, side] < 1e-9
-
-
-def test_degrees_are_enclosed_in_radians() -> None:
-    for low in (Fraction(-1000, 7), Fraction(0), Fraction(1, 3), Fraction(90), Fraction(359)):
-        for wide in (Fraction(0), Fraction(1, 9), Fraction(180)):
-            first, last = radians(low, low + wide)
-            with mpmath.workdps(DIGITS):
-                assert exact(first) <= exact(low) * mpmath.pi / 180 <= exact(first) + mpmath.mpf(10) ** -14
-                assert exact(last) - mpmath.mpf(10) ** -14 <= exact(low + wide) * mpmath.pi / 180 <= exact(last)
 
 
 @pytest.mark.parametrize("mirrored", [False, True])

@@ -2,6 +2,7 @@ import json
 from fractions import Fraction
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 
@@ -72,3 +73,37 @@ def test_files_that_cannot_be_read_are_named(tmp_path: Path) -> None:
         load_environment(tmp_path / "a.json")
     with pytest.raises(MapError, match="no free space"):
         Environment(())
+
+
+def test_a_picture_is_an_environment_whose_pixels_are_so_wide(tmp_path: Path) -> None:
+    pixels = np.full((3, 4), 255, dtype=np.uint8)
+    pixels[0, 0] = 0  # the upper left corner is a wall
+    cv2.imwrite(str(tmp_path / "plan.png"), pixels)
+    for resolution in ("1/3", Fraction(1, 3)):
+        environment = load_environment(tmp_path / "plan.png", resolution=resolution)
+        assert (environment.cell, environment.bounds, environment.area) == (Fraction(1, 3), (0, 0, Fraction(4, 3), 1), Fraction(11, 9))
+        assert (Fraction(1, 3), Fraction(2, 3)) in environment.polygons[0].outer
+        assert (0, 1) not in environment.polygons[0].outer
+    assert load_environment(tmp_path / "plan.png", 0.05).cell == Fraction(1, 20)
+
+
+def test_a_picture_needs_a_resolution_and_nothing_else_takes_one(tmp_path: Path) -> None:
+    cv2.imwrite(str(tmp_path / "plan.png"), np.full((3, 4), 255, dtype=np.uint8))
+    cv2.imwrite(str(tmp_path / "dark.png"), np.zeros((3, 4), dtype=np.uint8))
+    write_map(OccupancyGrid(np.zeros((5, 7), dtype=np.uint8), 0.05), tmp_path / "map.yaml")
+    (tmp_path / "a.wkt").write_text(WKT)
+    with pytest.raises(MapError, match=r"plan\.png: .*the width of a pixel in metres \(--resolution\)"):
+        load_environment(tmp_path / "plan.png")
+    for name in ("a.wkt", "map.yaml"):
+        with pytest.raises(MapError, match=r"give a resolution for a picture \(\.png"):
+            load_environment(tmp_path / name, "0.05")
+    for wrong, message in (
+        ("wide", "no number"),
+        ("0", "the resolution is 0"),
+        ("1e999", "the resolution is 1000000000"),
+        (float("nan"), "no number"),
+    ):
+        with pytest.raises(MapError, match=message):
+            load_environment(tmp_path / "plan.png", wrong)
+    with pytest.raises(MapError, match=r"dark\.png: no cell of the grid is free"):
+        load_environment(tmp_path / "dark.png", 1.0)
