@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
+from matplotlib.colors import to_rgba
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, PathPatch
 from matplotlib.path import Path as Outline
@@ -128,7 +129,8 @@ def _draw_pieces(axes: Axes, made: PieceFilter, states: PieceSet) -> None:
     part = held - (np.cumsum(map_.parts) - map_.parts)[wall]
     ends = np.stack([_along(made, wall, (part + more) / map_.parts[wall]) for more in (0, 1)], axis=1)
     strength = _PALEST + (1.0 - _PALEST) * np.sqrt(headings / max(int(headings.max(initial=1)), 1))
-    axes.add_collection(LineCollection(list(ends), colors=_LEFT, alpha=strength.tolist(), linewidths=4.0, zorder=4), autolim=False)
+    colours = [to_rgba(_LEFT, each) for each in strength.tolist()]
+    axes.add_collection(LineCollection(list(ends), colors=colours, linewidths=4.0, zorder=4), autolim=False)
     if len(pieces) <= _MOST_WEDGES:
         middles = dict(zip(held.tolist(), ends.mean(axis=1).tolist(), strict=True))
         for piece in pieces.tolist():
