@@ -114,6 +114,7 @@ def test_the_picture_shows_the_imports() -> None:
         ("maps", "datasets", False),
         ("maps", "lidar", False),
         ("particles", "lidar", True),
+        ("particles", "bouncing", True),
         ("lidar", "particles", False),
         ("bouncing", "membership", True),
         ("bouncing", "lidar", False),
