@@ -60,7 +60,7 @@ class Robot:
 
 
 KEEPS = Robot(
-    "A disk of 0.5 m that keeps to cells of 1 m; a start at a centre in one of 4 headings, which `RayModel` and particles know, 90°, no errors",
+    "A disk of 0.5 m that keeps to cells of 1 m; starts at centres in 4 headings, which rays and particles know, 90°, no errors",
     *(Fraction(90), Fraction(1), Fraction(1, 2), NONE, Fraction(1), 4, True, Fraction(1, 4), 72),
 )
 ERRS = Robot(
