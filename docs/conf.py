@@ -60,7 +60,7 @@ def draw_bounces(page):
     from ial.cli.main import app
 
     Path("hall.wkt").write_text(re.search(r"```text\n(POLYGON .*)", page)[1])
-    for command in re.findall(r"^\$ ial (bounce (?:build|show) hall.*)$", page, re.MULTILINE):
+    for command in re.findall(r"^\$ ial (bounce (?:build|simulate|show) (?:hall|disk).*)$", page, re.MULTILINE):
         if "store" not in command:
             app([*shlex.split(command), "--overwrite"], standalone_mode=False)
 

@@ -102,6 +102,7 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
             "bounce/advice_report",
             "bounce/advise",
             "bounce/build",
+            "bounce/observed",
             "bounce/options",
             "bounce/outcome",
             "bounce/piece_build",

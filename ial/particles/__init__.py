@@ -6,6 +6,7 @@ Names are loaded when they are first used.
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from ial.particles.bounce_monte_carlo import BounceMonteCarlo as BounceMonteCarlo
     from ial.particles.brute_force import BruteForce as BruteForce
     from ial.particles.likelihood_field import BeamModel as BeamModel
     from ial.particles.monte_carlo import MonteCarlo as MonteCarlo
@@ -17,6 +18,7 @@ else:
     __getattr__, __dir__, __all__ = _lazy(
         __name__,
         {
+            "bounce_monte_carlo": ("BounceMonteCarlo",),
             "brute_force": ("BruteForce",),
             "likelihood_field": ("BeamModel",),
             "monte_carlo": ("MonteCarlo", "MonteCarloConfig"),

@@ -1,11 +1,11 @@
 """`ial bounce run`: where a robot is that has seen a stream of bumps."""
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
+from ial.cli.bounce.observed import StreamBits, StreamFile, observations
 from ial.cli.bounce.options import number
 from ial.cli.shell.options import Json
 from ial.cli.shell.terminal import say, say_json, say_json_line
@@ -20,8 +20,8 @@ _MOST_PLACES = 12
 
 def run(
     filter_path: Annotated[Path, typer.Argument(metavar="FILTER", help="What `ial bounce build` has written.")],
-    stream: Annotated[str | None, typer.Option(metavar="BITS", help="The observations: 1 for a bump, 0 for a step without one.")] = None,
-    file: Annotated[Path | None, typer.Option(metavar="FILE", help="A file with the observations; - for standard input.")] = None,
+    stream: StreamBits = None,
+    file: StreamFile = None,
     log: Annotated[
         Path | None,
         typer.Option(metavar="FILE", help="A log of bumps with times, .csv or .jsonl; - for standard input."),
@@ -56,16 +56,15 @@ def run(
         raise StreamError("--speed, --turn-time, --clock-error, --speed-error, --follow and --until-localized are for a --log with times")
     from ial.bouncing.filters.filter_file import read_filter
     from ial.bouncing.filters.piece_filter import PieceFilter
-    from ial.bouncing.stream import parse_stream
     from ial.cli.bounce import outcome, piece_outcome
 
     made = read_filter(filter_path)
     if restart and not isinstance(made, PieceFilter):
         made.setting.check_restart()
-    observations = parse_stream(_read(file) if stream is None else stream)
+    observed = observations(stream, file)
     record: dict[str, Any]
     if isinstance(made, PieceFilter):
-        record = piece_outcome.outcome(made, observations, restart)
+        record = piece_outcome.outcome(made, observed, restart)
         if world == "closed" and record["rejected_at"]:
             raise StreamError(
                 f"observation {record['rejected_at'][0]} of the stream fits no place of the environment, but the world is closed; check "
@@ -74,7 +73,7 @@ def run(
         said = piece_outcome.lines(record)
     else:
         table = made.table.restarting() if restart else made.table
-        record = outcome.outcome(made, table.run_closed(observations) if world == "closed" else table.run(observations))
+        record = outcome.outcome(made, table.run_closed(observed) if world == "closed" else table.run(observed))
         said = outcome.lines(record, _MOST_PLACES)
     if as_json:
         say_json(record)
@@ -116,14 +115,3 @@ def _run_log(filter_path: Path, log: Path, timing: "BumpTiming", choices: tuple[
             for line in lines(made, told, _MOST_PLACES):
                 say(line)
     return bool(records) and all(told["localized_at"] is not None for told in records)
-
-
-def _read(file: Path | None) -> str:
-    if file is None or str(file) == "-":
-        return sys.stdin.read()
-    try:
-        return file.read_text(encoding="ascii")
-    except OSError as error:
-        raise StreamError(f"{file}: the stream cannot be read ({error.strerror or error}); check the path") from None
-    except UnicodeDecodeError:
-        raise StreamError(f"{file}: the stream is no text; give a file of 0 and 1") from None

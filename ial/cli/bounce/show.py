@@ -1,10 +1,12 @@
-"""`ial bounce show`: pictures of knowledge cycles, of basins, and of the automaton."""
+"""`ial bounce show`: pictures of knowledge cycles, of basins, of the automaton, and of what is left after bumps."""
 
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from ial.cli.bounce.observed import StreamBits, StreamFile, observations
 from ial.cli.bounce.options import (
     Angle,
     Cell,
@@ -23,9 +25,12 @@ from ial.cli.bounce.options import (
 from ial.cli.shell.options import Overwrite
 from ial.cli.shell.outputs import check_outputs
 from ial.cli.shell.terminal import counting, say, shown
+from ial.errors import ConfigError, StreamError
 
 if TYPE_CHECKING:
     from ial.bouncing.filters.bounce_filter import BounceFilter
+    from ial.bouncing.filters.filter_file import Filter
+    from ial.bouncing.filters.piece_filter import PieceFilter
     from ial.maps.polygons.environment import Environment
     from ial.maps.polygons.raster import Raster
 
@@ -37,9 +42,17 @@ def show(
     ],
     out: Annotated[Path, typer.Option(metavar="PNG", help="The picture to write.")],
     what: Annotated[
-        Literal["cycles", "basins", "automaton"],
-        typer.Option(help="The paths of localized robots, where each start leads, or the states of a small filter."),
+        Literal["cycles", "basins", "automaton", "sets"],
+        typer.Option(
+            help="The paths of localized robots, where each start leads, the states of a small filter, or what a stream leaves of a "
+            "filter with --rays."
+        ),
     ] = "cycles",
+    stream: StreamBits = None,
+    file: StreamFile = None,
+    truth: Annotated[
+        Path | None, typer.Option(metavar="CSV", help="With --what sets: where the robot was, as `ial bounce simulate` writes it.")
+    ] = None,
     angle: Angle = "90",
     cell: Cell = None,
     headings: HeadingCount = None,
@@ -57,16 +70,33 @@ def show(
     from ial.bouncing.filters.bounce_filter import BounceFilter
     from ial.bouncing.filters.building import all_free_cells, build_filter
     from ial.bouncing.filters.filter_file import read_filter
+    from ial.bouncing.filters.piece_filter import PieceFilter
     from ial.cli.bounce.surroundings import Surroundings
-    from ial.errors import ConfigError
 
-    check_outputs([out], paths, overwrite)
+    read_too = [each for each in (file, truth) if each is not None]
+    check_outputs([out], [*paths, *read_too], overwrite)
     if late := next((path for path in paths[1:] if path.suffix == ".npz"), None):
         raise ConfigError(f"{late}: a filter comes first, and its environments after it: {late.name} ENV …")
+    if what == "sets":
+        if (stream is None) == (file is None):
+            raise StreamError("--what sets shows what observations leave; give them as one of --stream BITS and --file FILE")
+        if paths[0].suffix != ".npz":
+            raise ConfigError(f"{paths[0]}: --what sets needs a filter; build one with --rays or an error, and give FILTER ENV")
+        read = read_filter(paths[0])
+        surroundings = Surroundings.read(paths[1:], resolution, simplify, read.radius_m if isinstance(read, PieceFilter) else Fraction(0))
+        _draw_sets(out, read, surroundings.environments, stream, file, truth)
+        for line in surroundings.lines():
+            say(line)
+        say(f"picture in {shown(out)}")
+        return
+    if stream is not None or read_too:
+        raise ConfigError("--stream, --file and --truth are for --what sets; leave them out")
     if paths[0].suffix == ".npz":
         read = read_filter(paths[0])
         if not isinstance(read, BounceFilter):
-            raise ConfigError(f"{paths[0]}: the filter of a robot with errors has no cycles and no basins; give one without errors")
+            raise ConfigError(
+                f"{paths[0]}: the filter of a robot with errors has no cycles and no basins; give one without errors, or --what sets"
+            )
         made = read
         surroundings = Surroundings.read(paths[1:], resolution, simplify, made.setting.radius)
         rasters = _walls(made, surroundings.environments)
@@ -86,10 +116,35 @@ def show(
     say(f"picture in {shown(out)}")
 
 
+def _draw_sets(
+    out: Path, made: "Filter", loaded: "dict[str, Environment]", stream: str | None, file: Path | None, truth: Path | None
+) -> None:
+    """Draw what a stream leaves of a filter of pieces of walls."""
+    from ial.bouncing.filters.piece_filter import PieceFilter
+    from ial.bouncing.stream_file import read_truth
+    from ial.results.bouncing.set_picture import draw_sets
+
+    if not isinstance(made, PieceFilter):
+        raise ConfigError("a filter of cells has no pieces of walls; build one with --rays or an error")
+    if len(loaded) != 1:
+        raise ConfigError("a filter holds no polygons; give the one environment it was built from after it: FILTER ENV")
+    (environment,) = loaded.values()
+    _check_built_from(made, environment)
+    draw_sets(out, made, environment, observations(stream, file), None if truth is None else read_truth(truth))
+
+
+def _check_built_from(made: "PieceFilter", environment: "Environment") -> None:
+    from ial.maps.polygons.walls import Walls
+
+    walls, known = Walls.of(environment, made.radius_m), made.map.walls
+    same = all(getattr(walls, name).tobytes() == getattr(known, name).tobytes() for name in ("x", "y", "after", "bulge", "tilt"))
+    if not same or walls.origin != known.origin:
+        raise ConfigError(f"{made.name}: the environment is not the one the filter was built from; build the filter again")
+
+
 def _walls(made: "BounceFilter", loaded: "dict[str, Environment]") -> "dict[str, Raster]":
     """Return the free cells of the environments a filter was built from; none if no environment is given."""
     from ial.bouncing.filters.building import all_free_cells
-    from ial.errors import ConfigError
 
     if not loaded:
         return {}

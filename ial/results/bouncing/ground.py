@@ -13,7 +13,7 @@ from ial.maps.polygons.raster import Raster
 from ial.results.palette import EDGE, FREE, OCCUPIED, UNKNOWN
 
 _FEW_CELLS = 40  # along a side; with more, lines between cells would hide what is drawn on them
-_NO_CELL = "#4a5058"
+NO_CELL = "#4a5058"
 FloatArray = npt.NDArray[np.float64]
 
 BRIGHT = ("#1b6ca8", "#e8a33d", "#1b9e77", "#8e1b5e", "#6f4e9c", "#17a2b8", "#a0522d", "#d16ba5", "#7a8b1f", "#0b2545")
@@ -76,7 +76,7 @@ class BounceGround:
 
     def draw(self, axes: Axes, pixels: npt.NDArray[np.float64] | None = None) -> None:
         """Draw the free cells white, or in RGB pixels of shape (rows, columns, 3), and all others dark, or grey if they are unknown."""
-        free, other = self.raster.free, _NO_CELL if self.whole else UNKNOWN
+        free, other = self.raster.free, NO_CELL if self.whole else UNKNOWN
         shown = np.where(free[..., None], np.array(to_rgb(FREE)) if pixels is None else pixels, np.array(to_rgb(other)))
         left, right, bottom, top = self.extent
         axes.imshow(shown, origin="lower", extent=(left, right, bottom, top), interpolation="nearest", zorder=0)
@@ -85,10 +85,16 @@ class BounceGround:
             cell = float(self.raster.cell)
             axes.vlines(left + cell * np.arange(columns + 1), bottom, top, color=EDGE, linewidth=0.35, alpha=0.6, zorder=1)
             axes.hlines(bottom + cell * np.arange(rows + 1), left, right, color=EDGE, linewidth=0.35, alpha=0.6, zorder=1)
-        margin = 0.02 * max(right - left, top - bottom)
-        axes.set(xlim=(left - margin, right + margin), ylim=(bottom - margin, top + margin), aspect="equal")
-        axes.locator_params(nbins=6)
-        axes.tick_params(labelsize=7.5, colors="#444444", length=2.5)
+        frame(axes, self.extent)
         axes.set_facecolor(OCCUPIED if self.whole else UNKNOWN)
-        for spine in axes.spines.values():
-            spine.set_color(EDGE)
+
+
+def frame(axes: Axes, extent: tuple[float, float, float, float]) -> None:
+    """Show a panel from left, right, bottom and top in metres, with a little around them."""
+    left, right, bottom, top = extent
+    margin = 0.02 * max(right - left, top - bottom)
+    axes.set(xlim=(left - margin, right + margin), ylim=(bottom - margin, top + margin), aspect="equal")
+    axes.locator_params(nbins=6)
+    axes.tick_params(labelsize=7.5, colors="#444444", length=2.5)
+    for spine in axes.spines.values():
+        spine.set_color(EDGE)

@@ -50,3 +50,41 @@ def test_what_cannot_be_shown(built: Path, hall: Path, refused: Callable[..., st
     big = ("bounce", "show", "room.wkt", "--cell", "1/8", "--angle", "135", "--what", "automaton", "--out", "a.png")
     assert "use larger cells or fewer headings" in refused(*big)
     assert "cannot be written" in refused("bounce", "show", "room.wkt", "--out", "nowhere/a.png")
+
+
+@pytest.fixture
+def sets(ial: Cli, hall: Path) -> Path:
+    errors = ("--turn-error", 2, "--step-error", "0.02", "--count-error", 1)
+    assert ial("bounce", "build", hall, "--angle", 100, *errors, "--headings", 36, "--part", "1/2", "--out", "sets.npz").exit_code == 0
+    more = ("--seed", 3, "--steps", 80, "--out", "s.txt", "--truth", "t.csv")
+    assert ial("bounce", "simulate", hall, "--angle", 100, "--step", "1/4", *errors, *more).exit_code == 0
+    return Path("sets.npz")
+
+
+@pytest.mark.slow
+def test_what_a_stream_leaves_is_drawn_and_the_truth_if_it_is_given(ial: Cli, hall: Path, sets: Path) -> None:
+    command = ("bounce", "show", sets, hall, "--what", "sets")
+    result = ial(*command, "--file", "s.txt", "--out", "file.png")
+    assert (result.exit_code, result.stdout) == (0, "picture in file.png\n")
+    assert cv2.imread("file.png") is not None
+    assert ial(*command, "--stream", Path("s.txt").read_text(), "--out", "stream.png").exit_code == 0
+    assert Path("file.png").read_bytes() == Path("stream.png").read_bytes()
+    assert ial(*command, "--file", "s.txt", "--truth", "t.csv", "--out", "truth.png").exit_code == 0
+    assert Path("truth.png").read_bytes() != Path("file.png").read_bytes()
+
+
+def test_sets_that_cannot_be_shown(ial: Cli, hall: Path, sets: Path, built: Path, refused: Callable[..., str]) -> None:
+    out = ("--what", "sets", "--out", "a.png")
+    assert "one of --stream BITS and --file FILE" in refused("bounce", "show", sets, hall, *out)
+    assert "one of --stream BITS and --file FILE" in refused("bounce", "show", sets, hall, *out, "--stream", "1", "--file", "s.txt")
+    assert "--what sets needs a filter" in refused("bounce", "show", hall, *out, "--stream", "1")
+    assert "a filter of cells has no pieces of walls" in refused("bounce", "show", built, hall, *out, "--stream", "1")
+    assert "give the one environment it was built from" in refused("bounce", "show", sets, *out, "--stream", "1")
+    assert "has not bumped yet" in refused("bounce", "show", sets, hall, *out, "--stream", "000")
+    assert "those of other observations" in refused("bounce", "show", sets, hall, *out, "--stream", "01", "--truth", "t.csv")
+    assert "an input of the command" in refused("bounce", "show", sets, hall, "--file", "s.txt", "--what", "sets", "--out", "s.txt")
+    assert "are for --what sets" in refused("bounce", "show", built, hall, "--stream", "1", "--out", "a.png")
+    assert "or --what sets" in refused("bounce", "show", sets, hall, "--out", "a.png")
+    hall.write_text("POLYGON ((0 0, 5 0, 5 3, 3 3, 3 5, 0 5, 0 0))")
+    assert "is not the one the filter was built from" in refused("bounce", "show", sets, hall, *out, "--stream", "1")
+    assert not Path("a.png").exists()
