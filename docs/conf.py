@@ -51,6 +51,7 @@ def draw_pictures(app):
             for section in examples["sections"](docs / name).values():
                 examples["run"](docs / name, section)
         draw_bounces((docs / "bouncing.md").read_text(encoding="utf-8"))
+        draw_floor_plan((docs / "floor-plan.md").read_text(encoding="utf-8"))
     finally:
         os.chdir(here)
 
@@ -63,6 +64,15 @@ def draw_bounces(page):
     for command in re.findall(r"^\$ ial (bounce (?:build|simulate|show) (?:hall|disk).*)$", page, re.MULTILINE):
         if "store" not in command:
             app([*shlex.split(command), "--overwrite"], standalone_mode=False)
+
+
+def draw_floor_plan(page):
+    """Draw the plan of its page, and run the commands there."""
+    from ial.cli.main import app
+
+    exec(re.search(r"```python\n(.*?)```", page, re.DOTALL)[1], {})
+    for command in re.findall(r"^\$ ial (bounce (?:build|simulate|show) .*)$", page, re.MULTILINE):
+        app([*shlex.split(command), "--overwrite"], standalone_mode=False)
 
 
 def draw_house(app):

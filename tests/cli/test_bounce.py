@@ -177,9 +177,9 @@ def test_bad_filters_and_streams_are_refused(refused: Callable[..., str], built:
     assert "no text" in refused("bounce", "run", built, "--file", "bad.txt")
 
 
-def blocks(kind: str) -> list[str]:
-    """The blocks of the page about the bouncing robot that are marked so."""
-    page = (Path(__file__).resolve().parents[2] / "docs" / "bouncing.md").read_text(encoding="utf-8")
+def blocks(kind: str, name: str = "bouncing.md") -> list[str]:
+    """The blocks of a page about the bouncing robot that are marked so."""
+    page = (Path(__file__).resolve().parents[2] / "docs" / name).read_text(encoding="utf-8")
     return re.findall(rf"```{kind}\n(.*?)```", page, re.DOTALL)
 
 
@@ -199,6 +199,20 @@ def test_the_page_shows_what_is_printed(ial: Cli, capsys: pytest.CaptureFixture[
     for code, output in zip(blocks("python"), printed, strict=True):
         exec(code, {})
         assert capsys.readouterr().out == output
+
+
+@pytest.mark.slow
+def test_the_way_from_a_floor_plan_to_the_kitchen_is_as_its_page_shows(ial: Cli) -> None:
+    exec(blocks("python", "floor-plan.md")[0], {})
+    commands = "".join(blocks("console", "floor-plan.md")).split("$ ")[1:]
+    assert len(commands) == 5
+    for entry in commands:
+        command, _, output = entry.partition("\n")
+        assert ial(*shlex.split(command)[1:]).stdout == output
+    assert "localized in kitchen" in commands[2]
+    x, y = next(map(float, line.split(",")[1:3]) for line in reversed(Path("where.csv").read_text().splitlines()) if line[0] == "1")
+    assert 4.1 <= x <= 8.2
+    assert 3.4 <= y <= 6.2
 
 
 def test_simulate_writes_a_stream_that_run_reads(ial: Cli, hall: Path, built: Path) -> None:

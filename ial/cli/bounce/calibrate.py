@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ial.cli.bounce.options import Angle, Radius, number
+from ial.cli.bounce.options import Angle, EnvironmentPath, Radius, Resolution, Simplify, number
 from ial.cli.shell.options import Json
 from ial.cli.shell.terminal import say, say_json, shown
 
@@ -22,7 +22,7 @@ _DIGITS = 2
 
 def calibrate(
     log: Annotated[Path, typer.Argument(metavar="LOG", help="Bumps with times (.csv, .jsonl); starts have x, y and heading.")],
-    environment: Annotated[Path, typer.Argument(metavar="ENV", help="Polygons (.json, .wkt, .geojson, .svg) or a map.yaml.")],
+    environment: EnvironmentPath,
     speed: Annotated[str, typer.Option(metavar="M/S", help="How fast the robot drives.")],
     angle: Angle = "90",
     step: Annotated[str, typer.Option(metavar="METRES", help="The step of the filter to build.")] = "1/4",
@@ -34,6 +34,8 @@ def calibrate(
     speed_error: Annotated[
         str | None, typer.Option(metavar="PART", help="Bound of the error of the speed for whole runs; the suggested one if left out.")
     ] = None,
+    resolution: Resolution = None,
+    simplify: Simplify = None,
     as_json: Json = False,
 ) -> None:
     """Find the bounds of errors for `ial bounce build`: which are refuted by what a robot has reported, and which explain it."""
@@ -41,10 +43,11 @@ def calibrate(
     from ial.bouncing.calibration import STEP_PART, TURN_DEG, Calibration
     from ial.bouncing.known_run import known_runs
     from ial.cli.bounce.log_run import log_events
-    from ial.maps.polygons.environment import load_environment
+    from ial.cli.bounce.surroundings import Surroundings
 
     timing = BumpTiming(number(speed, "--speed"), number(turn_time, "--turn-time"), number(clock_error, "--clock-error"))
-    loaded = load_environment(environment)
+    surroundings = Surroundings.read([environment], resolution, simplify, number(radius, "--radius"))
+    (loaded,) = surroundings.environments.values()
     tolerances = number(start_error, "--start-error"), number(heading_error, "--heading-error")
     found = Calibration(loaded, number(angle, "--angle"), number(step, "--step"), timing, *tolerances, number(radius, "--radius"))
     with log_events(log) as events:
@@ -61,11 +64,12 @@ def calibrate(
         "step_m": float(found.step_m),
         "build": "",
     }
-    record["build"] = _command(environment, angle, step, radius, record)
+    given = {"--radius": radius if number(radius, "--radius") else None, "--resolution": resolution, "--simplify": simplify}
+    record["build"] = _command(environment, angle, step, given, record)
     if as_json:
-        say_json(record)
+        say_json({**record, "simplified": surroundings.record()})
         return
-    for line in _lines(record):
+    for line in (*surroundings.lines(), *_lines(record)):
         say(line)
 
 
@@ -81,9 +85,9 @@ def _told(bound: "LeastBound", suggested: Fraction) -> dict[str, float | None]:
     return {"refuted": refuted, "explained": float(bound.explained), "suggested": float(suggested)}
 
 
-def _command(environment: Path, angle: str, step: str, radius: str, record: Mapping[str, Any]) -> str:
+def _command(environment: Path, angle: str, step: str, given: Mapping[str, str | None], record: Mapping[str, Any]) -> str:
     words = ["ial", "bounce", "build", str(shown(environment)), "--angle", angle, "--step", step]
-    words += ["--radius", radius] if number(radius, "--radius") else []
+    words += [word for name, text in given.items() if text is not None for word in (name, text)]
     words += ["--turn-error", f"{record['turn_error_deg']['suggested']:g}", "--step-error", f"{record['speed_error']['suggested']:g}"]
     words += ["--count-error", str(record["count_error"]), "--out", "filter.npz"]
     return shlex.join(words)

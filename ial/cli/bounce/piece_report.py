@@ -22,6 +22,7 @@ def about(made: PieceFilter) -> dict[str, Any]:
         "parts": int(made.map.parts.sum()),
         "pieces": len(made.map),
         "arcs": len(made.map.ends),
+        "first_pieces": None if made.first is None else len(made.first),
         "rooms": [room.name for room in goal.rooms],
         "within_m": None if goal.width is None else float(goal.width),
         "flash_bytes": tables.flash_bytes,
@@ -40,6 +41,8 @@ def lines(record: Mapping[str, Any]) -> Iterator[str]:
         f"{robot} with real geometry; turns of {record['bounce_deg']:g}° ± {record['turn_error_deg']:g}°, "
         f"steps of {record['step_m']:g} m ± {100 * record['step_error']:g} %, counts ± {record['count_error']}"
     )
+    if record["first_pieces"] is not None:
+        yield f"by what is known of its start, it leaves its first bump from one of {record['first_pieces']} pieces"
     where = f"in {' or '.join(record['rooms'])}" if record["rooms"] else f"within {record['within_m']:g} m"
     yield f"localized is a robot whose last bump was {where}"
     yield f"as a C header: {record['flash_bytes']:,} bytes of flash, {record['ram_bytes']:,} of RAM"

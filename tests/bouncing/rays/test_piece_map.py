@@ -43,6 +43,19 @@ def test_a_disk_is_never_where_it_does_not_fit() -> None:
         PieceMap.of(rooms, Fraction(100), Fraction(1, 4), NONE, Fraction(1, 4), 72, Fraction(3))
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("radius", [Fraction(0), Fraction(1, 5)])
+def test_a_map_is_the_same_from_whatever_corner_its_rings_begin(radius: Fraction) -> None:
+    """And whatever was in the memory before: what is measured of walls that no ray of a beam can meet is never read."""
+    outer, hole = ring((0, 0), (9, 0), (9, 4), (5, 4), (5, 7), (0, 7)), ring((2, 2), (2, 4), (3, 4), (3, 2))
+    found = set()
+    for turn in range(4):
+        made = Environment((Polygon(outer[turn:] + outer[:turn], (hole[turn:] + hole[:turn],)),))
+        map_ = PieceMap.of(made, Fraction(100), Fraction(1, 4), NONE, Fraction(1, 2), 36, radius)
+        found.add((len(map_), len(map_.ends)))
+    assert len(found) == 1
+
+
 def test_many_walls_are_no_reason_to_refuse() -> None:
     """`RayModel` refuses so many unless its sets may have more pieces; here sets are not made coarser."""
     teeth = [corner for x in range(330) for corner in ((x, 4), (x + 0.5, 3.5))][::-1]
