@@ -12,7 +12,6 @@ from ial.maps.polygons.exact_number import exact_number
 from ial.maps.polygons.polygon import Polygon
 
 _LARGEST_FILE = 2**26  # bytes
-_HUGE = Fraction(10**9)  # metres; what is wider is refused, whatever it is
 
 
 @dataclass(frozen=True)
@@ -115,7 +114,7 @@ def _from_picture(path: Path, resolution: Fraction | float | str | None) -> Envi
             f"{path}: a picture does not say how large it is; give its resolution, the width of a pixel in metres (--resolution)"
         )
     cell = exact_number(repr(resolution) if isinstance(resolution, float) else resolution, "the resolution")
-    grid = read_picture(path, float(min(cell, _HUGE)))
+    grid = read_picture(path, float(cell))
     try:
         return Environment(outlines(grid.mask(FREE), cell), cell)
     except MapError as error:

@@ -7,6 +7,8 @@ from ial.errors import MapError
 
 _NUMBER = re.compile(r"[+-]?(\d+/\d+|(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?)", re.ASCII)
 _MOST_CHARACTERS = 400
+LARGEST = 10**15
+"""Metres, degrees or seconds beyond this are a mistake, and doubles would no longer tell millimetres apart."""
 
 
 def exact_number(value: object, where: str) -> Fraction:
@@ -22,8 +24,15 @@ def exact_number(value: object, where: str) -> Fraction:
     Raises
     ------
     MapError
-        If it is no such number, has more than 400 characters or a three-digit exponent is not enough for it.
+        If it is no such number, is greater than 10¹⁵ in size, has more than 400 characters or a three-digit exponent is not enough for it.
     """
+    number = _read(value, where)
+    if abs(number) > LARGEST:
+        raise MapError(f"{where}: {str(value)[:40]!r} is too large; write a number of at most 1e15, in metres, degrees or seconds")
+    return number
+
+
+def _read(value: object, where: str) -> Fraction:
     if isinstance(value, Fraction):
         return value
     if isinstance(value, int) and not isinstance(value, bool):

@@ -27,6 +27,7 @@ from ial.maps.polygons.walls import Walls
 IntArray = npt.NDArray[np.int32]
 
 MOST_PIECES = 2**20
+MOST_STEPS = 2**16 - 1
 _NEVER_COARSER = 2**31  # pieces are fixed here, so no number of walls is too large for a set of them
 _FULL_DEG = 360
 
@@ -99,7 +100,7 @@ class PieceMap:
         ConfigError
             As `RayModel`, or if parts have no width, or there are too few headings.
         FilterError
-            If there would be too many pieces.
+            If there would be too many pieces, or more than 65,535 steps between two bumps.
         MapError
             If there are too many walls, or the robot is too large.
         """
@@ -113,6 +114,8 @@ class PieceMap:
         turns = floor((bounce_deg - bounds.turn_deg) / part_deg), ceil((bounce_deg + bounds.turn_deg) / part_deg)
         # A leg is not longer than the environment, so after so many steps no robot is still on its way.
         longest = ceil(Fraction(model.walls.scale) / (step_m * (1 - bounds.step))) + bounds.count + 1
+        if longest > MOST_STEPS:
+            raise FilterError(f"there can be {longest} steps between two bumps; use longer steps, so that there are at most {MOST_STEPS}")
         begins, ends, counts = _hits(model, grid_pieces(parts, headings), parts, longest, progress)
         keys, at = np.unique(begins * parts.sum() + ends, return_inverse=True)
         least, most = np.full(len(keys), np.iinfo(np.int32).max, dtype=np.int32), np.zeros(len(keys), dtype=np.int32)

@@ -24,3 +24,10 @@ def test_what_is_no_exact_number_is_refused(value: object) -> None:
 def test_a_zero_denominator_is_named() -> None:
     with pytest.raises(MapError, match="divides by zero"):
         exact_number("1/0", "here")
+
+
+@pytest.mark.parametrize("value", ["1e999", "-1e16", 10**16, Fraction(10**16), "1000000000000001"])
+def test_what_no_plan_or_clock_can_mean_is_refused(value: object) -> None:
+    with pytest.raises(MapError, match="is too large"):
+        exact_number(value, "here")
+    assert exact_number("1e15", "here") == exact_number(10**15, "here") == 10**15
