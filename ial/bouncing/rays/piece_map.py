@@ -28,6 +28,7 @@ IntArray = npt.NDArray[np.int32]
 
 MOST_PIECES = 2**20
 MOST_STEPS = 2**16 - 1
+_NARROWEST = 2.0**-100  # metres; with less there are too many parts, whatever it is
 _NEVER_COARSER = 2**31  # pieces are fixed here, so no number of walls is too large for a set of them
 _FULL_DEG = 360
 
@@ -171,10 +172,15 @@ def parts_of(walls: Walls, part_m: Fraction) -> npt.NDArray[np.int64]:
     ------
     ConfigError
         If the width is not positive.
+    FilterError
+        If there would be more than 2²⁰ parts.
     """
     if part_m <= 0:
         raise ConfigError(f"parts of walls are {float(part_m):g} m wide; give a width greater than 0")
-    return np.where(walls.stopping, np.ceil(walls.lengths / float(part_m)), 0.0).astype(np.int64)
+    parts = np.where(walls.stopping, np.ceil(walls.lengths / max(float(part_m), _NARROWEST)), 0.0)
+    if parts.sum() > MOST_PIECES:
+        raise FilterError(f"there would be {parts.sum():.0f} parts of walls; use wider parts, at most {MOST_PIECES} pieces are supported")
+    return parts.astype(np.int64)
 
 
 def grid_pieces(parts: npt.NDArray[np.int64], headings: int) -> RaySet:

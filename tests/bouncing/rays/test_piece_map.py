@@ -80,6 +80,8 @@ def test_what_is_done_is_told() -> None:
         ({"part_m": Fraction(0)}, ConfigError, "0 m wide"),
         ({"headings": 31}, ConfigError, "31 intervals of headings are too wide"),
         ({"part_m": Fraction(1, 10**6)}, FilterError, "at most 1048576"),
+        ({"part_m": Fraction(1, 10**5)}, FilterError, "at most 1048576"),
+        ({"part_m": Fraction(1, 10**300)}, FilterError, "at most 1048576"),
         ({"step_m": Fraction(0)}, ConfigError, "step is 0 m"),
         ({"step_m": Fraction(1, 10**300)}, FilterError, "steps between two bumps; use longer steps"),
         ({"radius_m": Fraction(-1)}, ConfigError, "radius of the robot is -1 m"),
