@@ -6,6 +6,8 @@ from typing import Any
 
 from ial.errors import ConfigError
 
+MOST_COUNT = 2**20
+
 
 @dataclass(frozen=True)
 class ExecutionBounds:
@@ -35,8 +37,8 @@ class ExecutionBounds:
             raise ConfigError(f"the bound of the error of a turn is {float(self.turn_deg):g}°; give 0 or more, and less than 180")
         if not 0 <= self.step < 1:
             raise ConfigError(f"the bound of the error of a step is {float(self.step):g} of its length; give 0 or more, and less than 1")
-        if self.count < 0:
-            raise ConfigError(f"the bound of the error of a count is {self.count} steps; give 0 or more")
+        if not 0 <= self.count <= MOST_COUNT:
+            raise ConfigError(f"the bound of the error of a count is {self.count} steps; give 0 or more, and at most {MOST_COUNT}")
 
     def record(self) -> dict[str, Any]:
         """Return plain values that JSON can hold; `of_record` gives the bounds back."""

@@ -90,6 +90,8 @@ def contact_edges(ring: ExactRing, radius: Fraction) -> list[ContactEdge]:
         before, after = sides[at - 1], sides[at]
         if bends[at] < 0:
             edges += _around(corner, before, after, radius)
+        elif bends[at] == 0:
+            edges.append(ContactEdge(*after.beside(corner, radius), 0))
         elif whole[at - 1] or whole[at]:
             edges += [
                 ContactEdge(*before.beside(corner, radius), NO_FACT, tilt=BARRIER),

@@ -79,17 +79,20 @@ class Walls:
         ConfigError
             If the radius is negative.
         MapError
-            If there are more than 4096, or one is so short that rounding might turn it.
+            If there are more than 4096, one is so short that rounding might turn it, or the robot is too large.
         """
         if radius < 0:
             raise ConfigError(f"the radius of the robot is {float(radius):g} m; give 0 for a point, or a positive number")
+        x0, y0, x1, y1 = environment.bounds
+        if 2 * radius > min(x1 - x0, y1 - y0):
+            raise MapError(f"a robot of radius {float(radius):g} m fits nowhere in the environment; check both")
         rings = [contact_edges(ring, radius) for polygon in environment.polygons for ring in polygon.rings]
         edges = [edge for ring in rings for edge in ring]
         if len(edges) > MOST_WALLS:
             raise MapError(
                 f"the environment has {len(edges)} walls; rays are supported among at most {MOST_WALLS}, so simplify them (--simplify)"
             )
-        x0, y0 = (low - radius for low in environment.bounds[:2])
+        x0, y0 = x0 - radius, y0 - radius
         after: list[int] = []
         before: list[int] = []
         for ring in rings:
@@ -102,6 +105,12 @@ class Walls:
         walls = cls(x, y, nexts, previous, bends, bulge, tilt, (x0, y0))
         if not (walls.lengths.min() > 0.0 and walls.slants.max() <= _LARGEST_SLANT):
             shortest = int(walls.lengths.argmin())
+            if radius:
+                raise MapError(
+                    f"at ({float(x0) + walls.x[shortest]:g}, {float(y0) + walls.y[shortest]:g}) the centre of a robot of radius "
+                    f"{float(radius):g} m has {walls.lengths[shortest]:g} m to go around a corner, which doubles do not hold; leave out "
+                    "corners where walls hardly turn, or give 0 for a point"
+                )
             raise MapError(
                 f"a wall at ({float(x0) + walls.x[shortest]:g}, {float(y0) + walls.y[shortest]:g}) is {walls.lengths[shortest]:g} m long "
                 f"in an environment of {walls.scale:g} m; doubles hold no such difference: leave out corners that lie so close together"

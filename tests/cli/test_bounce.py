@@ -323,6 +323,11 @@ def test_a_set_filter_is_exported_as_c_alone(ial: Cli, sets: Path) -> None:
     [
         (("--rays", "--radius", "5"), "a robot of radius 5 m fits nowhere"),
         (("--rays", "--radius", "-1/2"), "radius of the robot is -0.5 m"),
+        (("--rays", "--headings", 0), "0 intervals of headings are too wide"),
+        (("--rays", "--step", ""), "--step: '' is no number"),
+        (("--count-error", 10**11), "at most 1048576"),
+        (("--turn-error", "1e999"), "is too large"),
+        (("--cell", 1, "--radius", "1e15"), "no cell is free"),
         (("--turn-error", 1, "--cell", 1), "leave them out with --rays or an error"),
         (("--rays", "--rule", "inside"), "leave them out with --rays or an error"),
         (("--rays", "--corner", "endpoint"), "leave them out with --rays or an error"),
@@ -573,3 +578,11 @@ def test_a_set_filter_is_exported_as_plain_arrays(ial: Cli, sets: Path) -> None:
         assert len(arrays["arc_part"]) == len(arrays["arc_least"]) == len(arrays["arc_most"]) == 42182
         assert len(arrays["first"]) == 0
         assert arrays["turn"].tolist() == [19, 21]
+
+
+def test_any_angle_that_is_built_can_be_run(ial: Cli, hall: Path, refused: Callable[..., str]) -> None:
+    assert (
+        ial("bounce", "build", hall, "--rays", "--angle", "360000000000100", "--part", 1, "--headings", 36, "--out", "x.npz").exit_code == 0
+    )
+    assert "after 5 observations" in ial("bounce", "run", "x.npz", "--stream", "00011").stdout
+    assert "a leg would take more than" in refused("bounce", "simulate", hall, "--step", "1e-9", "--out", "s.txt")

@@ -31,8 +31,9 @@ def free_cells(environment: Environment, cell: Fraction, radius: Fraction = Frac
     ConfigError
         If a number cannot be meant.
     """
-    raster = erode(rasterize(environment, cell, rule), radius, rule)
-    if not raster.free.any():
+    x0, y0, x1, y1 = environment.bounds
+    raster = None if radius > (x1 - x0) + (y1 - y0) else erode(rasterize(environment, cell, rule), radius, rule)
+    if raster is None or not raster.free.any():
         raise MapError(
             f"no cell is free for a robot of radius {float(radius):g} m in cells of {float(cell):g} m; use smaller cells, a smaller radius "
             "or the rule 'centre'"

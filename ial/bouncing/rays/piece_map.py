@@ -112,7 +112,8 @@ class PieceMap:
         if parts.sum() * headings > MOST_PIECES:
             raise FilterError(f"there would be {parts.sum() * headings} pieces; use fewer headings or wider parts, at most {MOST_PIECES}")
         part_deg = Fraction(_FULL_DEG, headings)
-        turns = floor((bounce_deg - bounds.turn_deg) / part_deg), ceil((bounce_deg + bounds.turn_deg) / part_deg)
+        turn_deg = bounce_deg % _FULL_DEG
+        turns = floor((turn_deg - bounds.turn_deg) / part_deg), ceil((turn_deg + bounds.turn_deg) / part_deg)
         # A leg is not longer than the environment, so after so many steps no robot is still on its way.
         longest = ceil(Fraction(model.walls.scale) / (step_m * (1 - bounds.step))) + bounds.count + 1
         if longest > MOST_STEPS:

@@ -17,6 +17,7 @@ from ial.maps.polygons.environment import Environment
 
 _PARTS = 1 << 20  # errors are drawn in such parts of their bounds
 _MOST_TRIES = 2_000
+_MOST_STEPS = 2**20  # of one leg
 _FULL_DEG = 360
 
 
@@ -67,7 +68,7 @@ class RealRobot:
     Raises
     ------
     ConfigError
-        If the step is not positive, the radius is negative, or the start is not free.
+        If the step is not positive or far too short, the radius is negative, or the start is not free.
     MapError
         If no free place is found.
     """
@@ -84,6 +85,9 @@ class RealRobot:
     ) -> None:
         if step_m <= 0:
             raise ConfigError(f"the step is {float(step_m):g} m; give a length greater than 0")
+        x0, y0, x1, y1 = environment.bounds
+        if max(x1 - x0, y1 - y0) > _MOST_STEPS * step_m:
+            raise ConfigError(f"the step is {float(step_m):g} m, and a leg would take more than {_MOST_STEPS} of them; give a longer one")
         if bounce_deg % 360 == 0:
             raise ConfigError(
                 "the bouncing angle is a multiple of 360°, so a robot at a wall would stay there for ever; give another angle"

@@ -91,8 +91,8 @@ def build(
         if len(loaded) > 1:
             raise ConfigError("a filter with --rays or errors is for one environment; give one, or build a filter for each")
         goal = read_goal(rooms or [], within)
-        robot = number(angle, "--angle"), number(step or "1/4", "--step"), bounds
-        grid = number("1/4" if part is None else part, "--part"), headings or _HEADINGS, number(radius, "--radius")
+        robot = number(angle, "--angle"), number("1/4" if step is None else step, "--step"), bounds
+        grid = number("1/4" if part is None else part, "--part"), _HEADINGS if headings is None else headings, number(radius, "--radius")
         build_pieces(surroundings, robot, grid, goal, read_start(region, headings_known), out, as_json)
         return
     if rooms or within is not None or part is not None:

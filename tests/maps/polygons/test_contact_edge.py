@@ -8,9 +8,11 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
+from ial.errors import MapError
 from ial.maps.polygons.contact_edge import BARRIER, NO_FACT, ContactEdge, contact_edges
 from ial.maps.polygons.environment import Environment
 from ial.maps.polygons.polygon import Polygon
+from ial.maps.polygons.walls import Walls
 from tests.bouncing.rays.test_real_robot import ring
 from tests.bouncing.truth import random_environment
 
@@ -87,3 +89,22 @@ def test_walls_that_nearly_fold_back_are_not_cut_off() -> None:
     edges = contact_edges(needle.outer, Fraction(1, 10))
     assert any(edge.tilt == BARRIER for edge in edges)
     assert distances(Environment((needle,)), np.array(places(edges))).max() <= 0.1 + 1e-12
+
+
+def test_a_corner_on_a_straight_wall_is_none_however_near_to_another() -> None:
+    plain, told = (
+        contact_edges(ring((0, 0), *between, (4, 0), (4, 3), (0, 3)), Fraction(1, 5)) for between in ((), ((Fraction(1, 10), 0),))
+    )
+    assert [edge.bend for edge in told].count(0) == 1
+    assert {edge.bend for edge in plain} == {1}
+    walls = Walls.of(Environment((Polygon(ring((0, 0), (Fraction(1, 10), 0), (4, 0), (4, 3), (0, 3))),)), Fraction(1, 5))
+    assert walls.lengths.min() > 0.05
+
+
+def test_radii_that_fit_nowhere_or_are_too_small_are_named() -> None:
+    room = Environment((Polygon(ring((0, 0), (9, 0), (9, 4), (5, 4), (5, 7), (0, 7))),))
+    for radius in (Fraction(4), Fraction(10**9), Fraction(10**300)):
+        with pytest.raises(MapError, match="fits nowhere"):
+            Walls.of(room, radius)
+    with pytest.raises(MapError, match=r"radius 1e-13 m has .* to go around a corner"):
+        Walls.of(room, Fraction(1, 10**13))
