@@ -323,6 +323,7 @@ def test_a_set_filter_is_exported_as_c_alone(ial: Cli, sets: Path) -> None:
     [
         (("--rays", "--radius", "5"), "a robot of radius 5 m fits nowhere"),
         (("--rays", "--radius", "-1/2"), "radius of the robot is -0.5 m"),
+        (("--rays", "--room", "attic=20,20,30,30"), "the room 'attic' lies outside of the environment"),
         (("--rays", "--headings", 0), "0 intervals of headings are too wide"),
         (("--rays", "--step", ""), "--step: '' is no number"),
         (("--count-error", 10**11), "at most 1048576"),

@@ -13,6 +13,7 @@ from ial.bouncing.start import Start
 from ial.cli.bounce.piece_report import about, lines
 from ial.cli.bounce.surroundings import Surroundings
 from ial.cli.shell.terminal import counting, say, say_json, shown
+from ial.errors import ConfigError
 
 
 def build_pieces(
@@ -29,6 +30,13 @@ def build_pieces(
     The robot is its bouncing angle, its step and the bounds of its errors; the grid the width of parts, the headings and the radius.
     """
     (name, environment) = next(iter(surroundings.environments.items()))
+    x0, y0, x1, y1 = environment.bounds
+    for room in goal.rooms:
+        if room.x1 <= x0 or x1 <= room.x0 or room.y1 <= y0 or y1 <= room.y0:
+            raise ConfigError(
+                f"the room {room.name!r} lies outside of the environment, which is at x {float(x0):g} to {float(x1):g} m, "
+                f"y {float(y0):g} to {float(y1):g} m; check its coordinates"
+            )
     with counting("numbers of steps") as progress:
         map_ = PieceMap.of(environment, *robot, *grid, progress)
     made = PieceFilter(map_, name, *robot, goal, grid[-1]).starting(start)

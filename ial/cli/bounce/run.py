@@ -27,9 +27,9 @@ def run(
         typer.Option(metavar="FILE", help="A log of bumps with times, .csv or .jsonl; - for standard input."),
     ] = None,
     speed: Annotated[str | None, typer.Option(metavar="M/S", help="With --log: how fast the robot drives.")] = None,
-    turn_time: Annotated[str | None, typer.Option(metavar="S", help="With --log: how long a turn takes; 0 if left out.")] = None,
+    turn_time: Annotated[str | None, typer.Option(metavar="S", help="With --log: how long a turn takes.")] = None,
     clock_error: Annotated[
-        str | None, typer.Option(metavar="S", help="With --log: bound of the error of the time driven between bumps; 0 if left out.")
+        str | None, typer.Option(metavar="S", help="With --log: bound of the error of the time driven between bumps.")
     ] = None,
     speed_error: Annotated[
         str | None,
@@ -89,6 +89,11 @@ def _timing(speed: str | None, turn_time: str | None, clock_error: str | None, s
 
     if speed is None:
         raise StreamError("a log has times, and only the speed of the robot makes ways of them; give --speed, in metres per second")
+    if turn_time is None or clock_error is None:
+        raise StreamError(
+            "a log has times: say with --turn-time how many seconds a turn takes, and with --clock-error by how many the time driven "
+            "between bumps may be wrong; 0 only if it is so, since wrong ones lead to wrong places"
+        )
     more = {"--turn-time": turn_time, "--clock-error": clock_error, "--speed-error": speed_error}
     return BumpTiming(number(speed, "--speed"), *(number(text or "0", option) for option, text in more.items()))
 

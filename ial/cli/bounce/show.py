@@ -139,7 +139,9 @@ def _check_built_from(made: "PieceFilter", environment: "Environment") -> None:
     walls, known = Walls.of(environment, made.radius_m), made.map.walls
     same = all(getattr(walls, name).tobytes() == getattr(known, name).tobytes() for name in ("x", "y", "after", "bulge", "tilt"))
     if not same or walls.origin != known.origin:
-        raise ConfigError(f"{made.name}: the environment is not the one the filter was built from; build the filter again")
+        raise ConfigError(
+            f"{made.name}: the environment is not the one the filter was built from; give --resolution and --simplify as then"
+        )
 
 
 def _walls(made: "BounceFilter", loaded: "dict[str, Environment]") -> "dict[str, Raster]":
@@ -158,7 +160,7 @@ def _walls(made: "BounceFilter", loaded: "dict[str, Environment]") -> "dict[str,
         rows, columns = places.row[held], places.column[held]
         fits = (raster.x, raster.y) == corner and bool((rows < raster.free.shape[0]).all() and (columns < raster.free.shape[1]).all())
         if not fits or not raster.free[rows, columns].all():
-            raise ConfigError(f"{name}: the environment is not the one the filter was built from; build the filter again")
+            raise ConfigError(f"{name}: the environment is not the one the filter was built from; give --resolution and --simplify as then")
     return rasters
 
 

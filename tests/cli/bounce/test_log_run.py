@@ -18,6 +18,7 @@ WKT = "POLYGON ((0 0, 9 0, 9 4, 5 4, 5 7, 0 7, 0 0), (2 2, 2 4, 3 4, 3 2, 2 2))"
 CLOCK = ("--speed", "0.3", "--turn-time", "1.5", "--clock-error", "0.1")
 ERRORS = ("--angle", 100, "--turn-error", 2, "--step-error", "0.02")
 ROOMS = ("--room", "left=-1,-1,5,8", "--room", "right=5,-1,10,5")
+NO_TIME = ("--turn-time", 0, "--clock-error", 0)
 
 
 @pytest.fixture(scope="module")
@@ -102,7 +103,7 @@ def test_several_robots_have_an_outcome_each(ial: Cli, made: Path, log: Path) ->
 
 def test_an_exact_filter_follows_a_disk_that_keeps_to_its_cells(ial: Cli, made: Path) -> None:
     disk = ("--angle", 90, "--radius", "1/2", "--start", "1/2", "13/2", 0, "--steps", 120)
-    clock = ("--speed", "1/2", "--clock-error", "0.2")
+    clock = ("--turn-time", 0, "--speed", "1/2", "--clock-error", "0.2")
     assert ial("bounce", "simulate", made / "hall.wkt", *disk, *clock, "--log", "d.csv", "--out", "d.txt").exit_code == 0
     assert Path("d.csv").read_text().splitlines()[1].endswith("start,0.5,6.5,0")
     stream = json.loads(ial("bounce", "run", made / "exact.npz", "--file", "d.txt", "--json").stdout)
@@ -129,20 +130,25 @@ def test_a_robot_that_is_elsewhere_is_rejected(ial: Cli, refused: Callable[..., 
 @pytest.mark.parametrize(
     ("more", "message"),
     [
+        (("--log", "b.csv", "--speed", 1), "say with --turn-time how many seconds"),
+        (("--log", "b.csv", "--speed", 1, "--turn-time", 0), "and with --clock-error by how many"),
         (("--log", "b.csv"), "give --speed, in metres per second"),
-        (("--log", "b.csv", "--stream", "01", "--speed", 1), "one of --stream BITS, --file FILE and --log FILE"),
+        (("--log", "b.csv", "--stream", "01", "--speed", 1, *NO_TIME), "one of --stream BITS, --file FILE and --log FILE"),
         (("--stream", "01", "--follow"), "are for a --log with times"),
-        (("--stream", "01", "--speed", 1), "are for a --log with times"),
-        (("--log", "nowhere.csv", "--speed", 1), "nowhere.csv: the log cannot be read"),
-        (("--log", ".", "--speed", 1), "the log cannot be read"),
-        (("--log", "b.txt", "--speed", 1), "b.txt: a log is named .csv"),
-        (("--log", "b.csv", "--speed", 0), "the speed is 0 m/s"),
-        (("--log", "b.csv", "--speed", "fast"), "--speed: 'fast' is no number"),
-        (("--log", "b.csv", "--speed", 1, "--clock-error", 1), "build one with --count-error 4"),
-        (("--log", "b.csv", "--speed", 1, "--speed-error", "0.1"), "build one with --step-error 1/10"),
-        (("--log", "b.csv", "--speed", 1, "--turn-time", 2), "b.csv, line 4: the bump comes 1 s after the bump before it, too soon"),
-        (("--log", "twice.csv", "--speed", 1), "twice.csv, line 3: the robot starts a second time"),
-        (("--log", "empty.csv", "--speed", 1), "empty.csv: the log holds no event"),
+        (("--stream", "01", "--speed", 1, *NO_TIME), "are for a --log with times"),
+        (("--log", "nowhere.csv", "--speed", 1, *NO_TIME), "nowhere.csv: the log cannot be read"),
+        (("--log", ".", "--speed", 1, *NO_TIME), "the log cannot be read"),
+        (("--log", "b.txt", "--speed", 1, *NO_TIME), "b.txt: a log is named .csv"),
+        (("--log", "b.csv", "--speed", 0, *NO_TIME), "the speed is 0 m/s"),
+        (("--log", "b.csv", "--speed", "fast", *NO_TIME), "--speed: 'fast' is no number"),
+        (("--log", "b.csv", "--speed", 1, "--turn-time", 0, "--clock-error", 1), "build one with --count-error 4"),
+        (("--log", "b.csv", "--speed", 1, *NO_TIME, "--speed-error", "0.1"), "build one with --step-error 1/10"),
+        (
+            ("--log", "b.csv", "--speed", 1, "--turn-time", 2, "--clock-error", 0),
+            "b.csv, line 4: the bump comes 1 s after the bump before it, too soon",
+        ),
+        (("--log", "twice.csv", "--speed", 1, *NO_TIME), "twice.csv, line 3: the robot starts a second time"),
+        (("--log", "empty.csv", "--speed", 1, *NO_TIME), "empty.csv: the log holds no event"),
     ],
 )
 def test_what_cannot_be_meant_is_refused(refused: Callable[..., str], made: Path, more: tuple[object, ...], message: str) -> None:
@@ -155,7 +161,7 @@ def test_what_cannot_be_meant_is_refused(refused: Callable[..., str], made: Path
 
 def test_a_log_for_cells_begins_with_a_start(refused: Callable[..., str], made: Path) -> None:
     Path("b.csv").write_text("time,event\n1,bump\n")
-    message = refused("bounce", "run", made / "exact.npz", "--log", "b.csv", "--speed", 1)
+    message = refused("bounce", "run", made / "exact.npz", "--log", "b.csv", "--speed", 1, *NO_TIME)
     assert "b.csv, line 2: a bump with no start before it" in message
 
 
@@ -166,7 +172,7 @@ def test_a_log_for_cells_begins_with_a_start(refused: Callable[..., str], made: 
         (("--log", "b.csv"), "give --speed in metres per second, and --clock-error"),
         (("--log", "b.csv", "--speed", 1), "give --speed in metres per second, and --clock-error"),
         (("--log", "b.csv", "--speed", 1, "--clock-error", 0), "give --clock-error 1e-9 or more"),
-        (("--log", "b.txt", "--speed", 1, "--clock-error", 1), "a log is named .csv"),
+        (("--log", "b.txt", "--speed", 1, "--turn-time", 0, "--clock-error", 1), "a log is named .csv"),
         (("--out", "s.txt", "--speed", 1), "are for a --log with times"),
         (("--log", "b.csv", "--speed", 1, "--clock-error", 1, "--truth", "b.csv"), "written twice"),
     ],
