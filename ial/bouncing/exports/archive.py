@@ -83,7 +83,8 @@ def plain_piece_archive(made: PieceFilter) -> bytes:
     ``arc_part``                  (A,) int32      to which part an arc leads; the heading follows from that of the piece and the turn
     ``arc_least``, ``arc_most``   (A,) int32      after how many steps the robot bumps there, at least and at most
     ``first``                     (F,) int32      the pieces after the first bump; none if nothing is known of the start
-    ``first_least`` and ``_most`` (F,) int32      after how many steps
+    ``first_least``               (F,) int32      after how many steps, at least
+    ``first_most``                (F,) int32      and at most
     ============================  ==============  =======================================================================
     """
     map_, none = made.map, np.empty(0, dtype=np.int32)
