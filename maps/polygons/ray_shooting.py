@@ -207,8 +207,8 @@ def shoot(begin, walls, lower, upper, nearest, farthest, table, links, margin, o
         x1, y1 = table[wall, _X] + last * table[wall, _DX], table[wall, _Y] + last * table[wall, _DY]
         own = margin + table[wall, _BULGE]
         for j in range(corners):
-            if spans[j, 0] > spans[j, 1]:
-                continue
+            if spans[j, 0] == np.inf:
+                continue  # nothing was measured of it
             # An arc is met before its chord: on the way by more than it bulges, if at an angle.
             length, slant, bulge = table[j, _LENGTH], table[j, _SLANT], table[j, _BULGE]
             early = bulge / min(cuts[j, 0], 1.0) if cuts[j, 0] > 0.0 else bulge

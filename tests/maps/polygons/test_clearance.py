@@ -22,7 +22,8 @@ def test_a_point_can_stand_everywhere() -> None:
 @pytest.mark.parametrize("seed", range(40))
 def test_a_part_is_left_out_only_if_one_wall_is_too_near_to_all_of_it(seed: int) -> None:
     there, random = random_environment(seed), np.random.default_rng(seed)
-    radius = Fraction(int(random.integers(50, 800)), 1000)
+    x0, y0, x1, y1 = there.bounds
+    radius = min(Fraction(int(random.integers(50, 800)), 1000), min(x1 - x0, y1 - y0) / 2)
     edges = Walls.of(there, radius)
     walls = np.repeat(np.flatnonzero(edges.stopping).astype(np.int32), 8)
     first = random.random(len(walls))
