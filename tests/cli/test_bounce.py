@@ -329,6 +329,8 @@ def test_a_set_filter_is_exported_as_c_alone(ial: Cli, sets: Path) -> None:
         (("--count-error", 10**11), "at most 1048576"),
         (("--turn-error", "1e999"), "is too large"),
         (("--cell", 1, "--radius", "1e15"), "no cell is free"),
+        (("--cell", 1, "--step", "1e15"), "give a length greater than 0, and at most 1073741824"),
+        (("--cell", 1, "--step", "5000"), "a step leads over 5000 cells, at most 4096 are supported"),
         (("--turn-error", 1, "--cell", 1), "leave them out with --rays or an error"),
         (("--rays", "--rule", "inside"), "leave them out with --rays or an error"),
         (("--rays", "--corner", "endpoint"), "leave them out with --rays or an error"),

@@ -27,6 +27,8 @@ from ial.maps.polygons.raster import Raster
 
 IntArray = npt.NDArray[np.int32]
 
+_LONGEST_STEP = 2**12  # cells; the grid is padded by as many on each side
+
 
 @kernel
 def _map_cells(start, stop, index, places, passed, ends, turned, arcs):  # type: ignore[no-untyped-def]
@@ -73,7 +75,7 @@ class CellMap:
     Raises
     ------
     MapError
-        If no cell is free, or there are more than 2³¹ − 1 vertices.
+        If no cell is free, a step leads over more than 4096 cells, or there are more than 2³¹ − 1 vertices.
     """
 
     raster: Raster
@@ -85,6 +87,8 @@ class CellMap:
         free = int(np.count_nonzero(self.raster.free))
         if not free:
             raise MapError("no cell is free, so the robot can be nowhere; use smaller cells, a smaller radius or the rule 'centre'")
+        if (longest := int(np.abs(self.classes.offsets).max())) > _LONGEST_STEP:
+            raise MapError(f"a step leads over {longest} cells, at most {_LONGEST_STEP} are supported; use shorter steps or larger cells")
         if free * len(self.classes) > MOST_VERTICES:
             raise MapError(f"{free} free cells × {len(self.classes)} headings are too many vertices; at most {MOST_VERTICES} are supported")
 

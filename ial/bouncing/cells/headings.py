@@ -12,6 +12,7 @@ from ial.errors import ConfigError
 from ial.maps.polygons.exact_cosine import cosine_bounds, rational_cosine
 
 MOST_HEADINGS = 2**15
+LONGEST_STEP = 2**30  # cells; offsets are int32
 _FULL_DEG = 360
 
 
@@ -31,8 +32,8 @@ class Headings:
     Raises
     ------
     ConfigError
-        If there is no heading or too many, the turn is a multiple of a full turn, or the step is not positive or so short that it
-        leads nowhere in some heading.
+        If there is no heading or too many, the turn is a multiple of a full turn, or the step is not positive, too long, or so short
+        that it leads nowhere in some heading.
     """
 
     count: int
@@ -47,8 +48,8 @@ class Headings:
                 "the bouncing angle is a multiple of 360°, so a robot at a wall would stay there for ever; give another angle"
             )
         object.__setattr__(self, "turn", self.turn % self.count)
-        if self.step <= 0:
-            raise ConfigError(f"the step is {self.step} cells; give a length greater than 0")
+        if not 0 < self.step <= LONGEST_STEP:
+            raise ConfigError(f"the step is {float(self.step):g} cells; give a length greater than 0, and at most {LONGEST_STEP}")
         for heading, (x, y) in enumerate(self.offsets):
             if x == y == 0:
                 raise ConfigError(
