@@ -12,6 +12,7 @@ from ial.bouncing.exports.c_tables import CTables
 from ial.bouncing.exports.exported_filter import ExportedFilter
 from ial.bouncing.filters.building import filter_of_cells
 from ial.bouncing.start import ANYWHERE
+from ial.errors import MapError
 from ial.maps.polygons.environment import Environment
 from ial.maps.polygons.raster import Raster, Rule
 
@@ -92,6 +93,8 @@ class CellChoice:
             return replace(choice, refusal=f"more than {MOST_CONFIGURATIONS:,} configurations")
         try:
             made = filter_of_cells(rasters, headings, radius_m, rule, "segment", most_states, ANYWHERE, None, _MOST_VISITS)
+        except MapError:  # cells and configurations were looked at
+            return replace(choice, refusal="a step leads over too many cells")
         except TooManyStatesError as error:
             return replace(choice, more_than=error.states)
         tables = CTables.of(ExportedFilter.of(made), "bounce")

@@ -92,6 +92,9 @@ def test_choices_that_cannot_be_made_say_why(monkeypatch: pytest.MonkeyPatch) ->
     made = advise(HALL, RIGHT_ANGLE, radius_m=Fraction(9))
     assert {each.refusal for each in made.cells} == {"no cell is free"}
     assert "there is no exact filter here; a robot of radius 9 m fits nowhere" in made.reason
+    made = advise(HALL, Fraction(45), Fraction(5000), radius_m=HALF)
+    assert "a step leads over too many cells" in {each.refusal for each in made.cells}
+    assert len(made.pieces) == 6
     monkeypatch.setattr(advice, "_MOST_CELLS", 100)
     made = advise(HALL, RIGHT_ANGLE)
     assert {each.refusal for each in made.cells if each.cell_m == HALF} == {"more than 100 cells"}
