@@ -3,15 +3,13 @@ from collections.abc import Callable
 from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from ial.bouncing.calibration import LeastBound
 from ial.cli.bounce.calibrate import _suggested
+from tests.cli.bounce.hall import WKT, Cli
 
-Cli = Callable[..., Any]
-WKT = "POLYGON ((0 0, 9 0, 9 4, 5 4, 5 7, 0 7, 0 0), (2 2, 2 4, 3 4, 3 2, 2 2))"
 CLOCK = ("--speed", "0.3", "--turn-time", "1.5", "--clock-error", "0.01")
 
 

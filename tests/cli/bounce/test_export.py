@@ -1,6 +1,5 @@
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -11,16 +10,7 @@ from ial.bouncing.exports.exported_filter import ExportedFilter
 from ial.bouncing.exports.jflap import read_jff
 from ial.bouncing.exports.verilog import memory_image, verilog_module
 from ial.bouncing.filters.filter_file import read_filter
-
-Cli = Callable[..., Any]
-WKT = "POLYGON ((0 0, 9 0, 9 4, 5 4, 5 7, 0 7, 0 0), (2 2, 2 4, 3 4, 3 2, 2 2))"
-
-
-@pytest.fixture
-def built(ial: Cli) -> Path:
-    Path("hall.wkt").write_text(WKT)
-    assert ial("bounce", "build", "hall.wkt", "--out", "hall.npz").exit_code == 0
-    return Path("hall.npz")
+from tests.cli.bounce.hall import Cli
 
 
 def test_c(ial: Cli, built: Path) -> None:
@@ -69,9 +59,8 @@ def test_other_tools(ial: Cli, built: Path) -> None:
         assert np.array_equal(archive["next"], table.successors)
 
 
-def test_a_large_graph_is_forced(ial: Cli, refused: Callable[..., str]) -> None:
-    Path("hall.wkt").write_text(WKT)
-    assert ial("bounce", "build", "hall.wkt", "--cell", "1/10", "--angle", 45, "--out", "large.npz").exit_code == 0
+def test_a_large_graph_is_forced(ial: Cli, hall: Path, refused: Callable[..., str]) -> None:
+    assert ial("bounce", "build", hall, "--cell", "1/10", "--angle", 45, "--out", "large.npz").exit_code == 0
     assert "and a picture of more than 2,000 cannot be read" in refused("bounce", "export", "large.npz", "--out", "large.dot")
     assert ial("bounce", "export", "large.npz", "--out", "large.dot", "--force").exit_code == 0
 
@@ -109,3 +98,27 @@ def test_a_filter_of_another_name_is_the_same_file(built: Path, refused: Callabl
     before = built.read_bytes()
     assert "this is an input of the command" in refused("bounce", "export", built, "--out", "link.npz")
     assert built.read_bytes() == before
+
+
+def test_a_set_filter_is_exported_as_c_alone(ial: Cli, sets: Path) -> None:
+    result = ial("bounce", "export", sets, "--prefix", "hall", "--out", "sets.h")
+    assert result.exit_code == 0
+    assert "10944 pieces of walls in sets.h" in result.stdout
+    assert "static inline int hall_update(hall_filter *filter, int bump)" in Path("sets.h").read_text()
+    for more in (("--out", "sets.v"), ("--out", "b.h", "--restart"), ("--out", "b.h", "--minimize", "colours")):
+        result = ial("bounce", "export", sets, *more)
+        assert result.exit_code == 2
+        assert "give --format c or npz, without --minimize and --restart" in result.stderr
+    result = ial("bounce", "show", sets, "--out", "a.png")
+    assert result.exit_code == 2
+    assert "no cycles and no basins" in result.stderr
+
+
+def test_a_set_filter_is_exported_as_plain_arrays(ial: Cli, sets: Path) -> None:
+    assert "10944 pieces of walls in a.npz" in ial("bounce", "export", sets, "--out", "a.npz").stdout
+    with np.load("a.npz") as arrays:
+        assert arrays["arc_start"].shape == (10945,)
+        assert arrays["box_m"].shape == (152, 4)
+        assert len(arrays["arc_part"]) == len(arrays["arc_least"]) == len(arrays["arc_most"]) == 42182
+        assert len(arrays["first"]) == 0
+        assert arrays["turn"].tolist() == [19, 21]

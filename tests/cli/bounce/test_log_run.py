@@ -6,18 +6,15 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 from typer.testing import CliRunner
 
 from ial.cli.main import app
+from tests.cli.bounce.hall import ROOMS, WKT, Cli
 
-Cli = Callable[..., Any]
-WKT = "POLYGON ((0 0, 9 0, 9 4, 5 4, 5 7, 0 7, 0 0), (2 2, 2 4, 3 4, 3 2, 2 2))"
 CLOCK = ("--speed", "0.3", "--turn-time", "1.5", "--clock-error", "0.1")
 ERRORS = ("--angle", 100, "--turn-error", 2, "--step-error", "0.02")
-ROOMS = ("--room", "left=-1,-1,5,8", "--room", "right=5,-1,10,5")
 NO_TIME = ("--turn-time", 0, "--clock-error", 0)
 
 

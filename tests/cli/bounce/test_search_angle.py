@@ -1,18 +1,10 @@
 import json
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-Cli = Callable[..., Any]
-
-
-@pytest.fixture
-def hall() -> Path:
-    path = Path("hall.wkt")
-    path.write_text("POLYGON ((0 0, 9 0, 9 4, 5 4, 5 7, 0 7, 0 0), (2 2, 2 4, 3 4, 3 2, 2 2))")
-    return path
+from tests.cli.bounce.hall import Cli
 
 
 def test_a_table_of_all_angles_and_the_best(ial: Cli, hall: Path) -> None:

@@ -1,11 +1,10 @@
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 import cv2
 import pytest
 
-Cli = Callable[..., Any]
+from tests.cli.bounce.hall import Cli
 
 
 @pytest.fixture
