@@ -18,6 +18,7 @@ MOST_STATES = 2**17
 _MOST_CELLS = 2**24
 _USUAL_STEP = Fraction(1, 4)  # metres, of the ray mode, as `ial bounce build` has it
 _PARTS, _PART_HEADINGS = (Fraction(1), Fraction(1, 2), Fraction(1, 4)), (36, 72)
+_TRY_IT = "it may be too coarse to tell places apart, so try it on what `ial bounce simulate` writes; on a computer, RayModel knows more"
 _RULES: tuple[Rule, ...] = ("centre", "inside")
 
 
@@ -207,13 +208,13 @@ def _best(
         finest = max(fitting, key=lambda each: (each.pieces, each.headings))
         return finest, (
             f"{wrong}; the filter of rays holds the robot wherever it starts, within its bounds of errors, and this is the finest here of "
-            f"at most {flash_bytes:,} bytes of flash; on a computer, RayModel knows more"
+            f"at most {flash_bytes:,} bytes of flash; {_TRY_IT}"
         )
     if known:
         smallest = min(known, key=lambda each: (each.flash_bytes or 0, each.pieces))
         return smallest, (
             f"{wrong}; the filter of rays holds the robot wherever it starts, within its bounds of errors; none here takes as little as "
-            f"{flash_bytes:,} bytes of flash, and this is the smallest; on a computer, RayModel knows more"
+            f"{flash_bytes:,} bytes of flash, and this is the smallest; {_TRY_IT}"
         )
     if no_pieces is None:
         return None, f"{wrong}; filters of rays are too much work here: take longer steps (--step), or fewer walls (--simplify)"

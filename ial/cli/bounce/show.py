@@ -75,6 +75,8 @@ def show(
 
     read_too = [each for each in (file, truth) if each is not None]
     check_outputs([out], [*paths, *read_too], overwrite)
+    if out.suffix.lower() != ".png":
+        raise ConfigError(f"{out}: the picture is a PNG; give a name that ends in .png")
     if late := next((path for path in paths[1:] if path.suffix == ".npz"), None):
         raise ConfigError(f"{late}: a filter comes first, and its environments after it: {late.name} ENV …")
     if what == "sets":

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from ial.cli.shell.options import Json, LaserPose, OdomTopic, RecordingPath, ScanTopics
-from ial.cli.shell.terminal import out, remark, say, say_json
+from ial.cli.shell.terminal import out, remark, say, say_json, visible
 
 if TYPE_CHECKING:
     from ial.datasets.info import RecordingInfo
@@ -37,13 +37,14 @@ def info(
 
 def _print(about: "RecordingInfo") -> None:
     from rich.table import Table
+    from rich.text import Text
 
     say(f"{about.name}: {about.format}")
     if about.topics:
         table = Table("topic", "type", box=None, pad_edge=False, header_style="bold")
         table.add_column("messages", justify="right")
         for topic in about.topics:
-            table.add_row(topic.name, topic.type, str(topic.count))
+            table.add_row(Text(visible(topic.name)), Text(visible(topic.type)), str(topic.count))
         out.print(table)
     for name, text in _facts(about):
         say(f"{name:<10}  {text}")

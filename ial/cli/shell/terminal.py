@@ -3,6 +3,7 @@
 import json
 import logging
 import os
+import re
 import warnings
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
@@ -14,13 +15,15 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, SpinnerColumn
 
 Item = TypeVar("Item")
 
+_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]")
+
 out = Console(highlight=False, soft_wrap=True)
 err = Console(stderr=True, highlight=False, soft_wrap=True)
 
 
 def say(text: str = "") -> None:
     """Print a line of the result."""
-    out.print(text, markup=False)
+    out.print(visible(text), markup=False)
 
 
 def say_json(record: Any) -> None:
@@ -36,7 +39,12 @@ def say_json_line(record: Any) -> None:
 def remark(kind: str, text: str, style: str) -> None:
     """Print one line about the work, such as a warning."""
     err.print(f"[{style}]{kind}:[/{style}]", end=" ")
-    err.print(" ".join(text.split()), markup=False)
+    err.print(visible(" ".join(text.split())), markup=False)
+
+
+def visible(text: str) -> str:
+    """Return a text with its control characters written out: names in files that come from elsewhere must not steer the terminal."""
+    return _CONTROL.sub(lambda found: repr(found.group())[1:-1], text)
 
 
 class _Remarks(logging.Handler):

@@ -87,3 +87,7 @@ def test_sets_that_cannot_be_shown(ial: Cli, hall: Path, sets: Path, built: Path
     hall.write_text("POLYGON ((0 0, 5 0, 5 3, 3 3, 3 5, 0 5, 0 0))")
     assert "is not the one the filter was built from" in refused("bounce", "show", sets, hall, *out, "--stream", "1")
     assert not Path("a.png").exists()
+
+
+def test_a_picture_is_called_one(built: Path, refused: Callable[..., str]) -> None:
+    assert "a.h: the picture is a PNG; give a name that ends in .png" in refused("bounce", "show", built, "--out", "a.h")

@@ -38,3 +38,10 @@ def test_a_missing_file(ial: Cli) -> None:
     result = ial("info", "missing.bag")
     assert (result.exit_code, result.stdout) == (2, "")
     assert result.stderr.startswith("error: missing.bag: ")
+
+
+def test_names_of_topics_are_shown_as_they_are_and_steer_no_terminal(ial: Cli, bag: Any) -> None:
+    shown = ial("info", bag.write(topics=("/front[bold]", "/rear\x1b[31m"))).stdout
+    assert "/front[bold] " in shown
+    assert "/rear\\x1b[31m " in shown
+    assert "\x1b" not in shown
