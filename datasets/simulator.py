@@ -141,9 +141,9 @@ def simulate(
         between = OdometryPath.of()
         if index:
             stamps = [readings[-1].stamp_ns + (stamp - readings[-1].stamp_ns) * part // messages for part in range(messages + 1)]
-            driven = _drive(odometry, path[index - 1], pose, stamps, bounds, errors.adversarial, random)
+            driven = simulated_odometry(odometry, path[index - 1], pose, stamps, bounds, errors.adversarial, random)
             odometry, between = driven.last, OdometryPath(driven.stamps_ns[1:-1], driven.numbers[1:-1])
-        readings.append(Reading(index, stamp, odometry, _scan(grid, pose, lidar, errors, stamp, random), between))
+        readings.append(Reading(index, stamp, odometry, simulated_scan(grid, pose, lidar, errors, stamp, random), between))
     recording = InMemoryRecording("simulation", readings)
     return Simulation(recording, Trajectory.of((reading.stamp_ns, pose) for reading, pose in zip(readings, path, strict=True)))
 
@@ -161,10 +161,31 @@ def _error(random: np.random.Generator, size: int, bound: float, adversarial: bo
     return drawn * (bound * _INSIDE)
 
 
-def _drive(
+def simulated_odometry(
     before: Odometry, start: Pose, end: Pose, stamps: list[int], bounds: MotionBounds, adversarial: bool, random: np.random.Generator
 ) -> OdometryPath:
-    """Return odometry at the stamps, from `before` on, which encloses the true motion; the robot moves evenly."""
+    """Return what the odometry of a robot records that moves evenly from one pose to another.
+
+    Parameters
+    ----------
+    before
+        What it recorded last.
+    start, end
+        Where it truly is, ``T_map_base``.
+    stamps
+        Of its messages, nanoseconds: that of `before` first.
+    bounds
+        How far it may be from the truth. The motion that they make of it encloses the true one.
+    adversarial
+        Whether errors are at their bounds.
+    random
+        What they are drawn from.
+
+    Raises
+    ------
+    ConfigError
+        If the bounds are smaller than what rounding does.
+    """
     truth = Motion.between(Odometry.of(start), Odometry.of(end))
     delta = start.inverse() @ end
     count = len(stamps) - 1
@@ -192,7 +213,10 @@ def _within(inner: Motion, outer: Motion) -> bool:
     return all(outer.contains(Pose(*end.tolist())) for end in ends)
 
 
-def _scan(grid: OccupancyGrid, pose: Pose, lidar: Lidar, errors: SensorErrors, stamp_ns: int, random: np.random.Generator) -> LaserScan:
+def simulated_scan(
+    grid: OccupancyGrid, pose: Pose, lidar: Lidar, errors: SensorErrors, stamp_ns: int, random: np.random.Generator
+) -> LaserScan:
+    """Return a scan from a pose ``T_map_base``, with its stamp in nanoseconds and errors that are drawn from a generator."""
     blank = np.full(lidar.beams, np.inf, dtype=np.float32)
     mounting = lidar.mounting
     limits = (lidar.angle_min, lidar.angle_increment, lidar.range_min, lidar.range_max)

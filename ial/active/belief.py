@@ -1,0 +1,149 @@
+"""`Belief`: where a robot can be, as planners see it: the set of a localizer, its groups, and where no pose of it would collide."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ial.active.clearance_field import ClearanceField
+from ial.active.explored_area import View
+from ial.active.safe_way import Distances, safe_ways
+from ial.contractors.boxes import Boxes
+from ial.datasets.motion import Motion
+from ial.datasets.scan import LaserScan
+from ial.lidar.estimate import Estimate
+from ial.lidar.localizer import Localizer
+from ial.maps.grids.occupancy_grid import OccupancyGrid
+from ial.pose import Pose
+
+FloatArray = npt.NDArray[np.float64]
+
+_GROUP_M, _GROUP_RAD = 1.0, 0.5
+MOST_GROUPS = 64
+"""Planners look at so many groups at most, the largest; what is safe is decided for all poses."""
+
+
+@dataclass(frozen=True, eq=False)
+class Groups:
+    """Poses that are near each other, and connected.
+
+    Parameters
+    ----------
+    poses
+        A possible pose of each: the middle of a box, float64 of shape (m, 3), in the grid's frame.
+    hulls
+        A box around each.
+    component
+        To which connected part of the set each belongs, int64 of shape (m,).
+    """
+
+    poses: FloatArray
+    hulls: Boxes
+    component: npt.NDArray[np.int64]
+
+    def __len__(self) -> int:
+        return len(self.poses)
+
+    def __repr__(self) -> str:
+        return f"<Groups: {len(self)} in {len(set(self.component.tolist()))} connected parts>"
+
+
+class Belief:
+    """What a lidar robot knows.
+
+    Parameters
+    ----------
+    localizer
+        What localizes it. The bounds of odometry are those of its configuration, and so is the clearance: its `robot_radius_m`, since the
+        robot keeps that distance at each scan.
+    radius_m
+        The radius of the robot.
+
+    Raises
+    ------
+    MapError
+        If the map has no free space for the robot.
+    ConfigError
+        If the radius is negative, or larger than the clearance.
+
+    Attributes
+    ----------
+    estimate
+        The last answer; None before the first scan.
+    moved
+        Where it is, by the middle of its odometry, in the frame of its start.
+    view
+        What the last scan can have seen; None before the first.
+    """
+
+    def __init__(self, localizer: Localizer, radius_m: float) -> None:
+        self.localizer = localizer
+        self.distances = Distances(radius_m, localizer.config.robot_radius_m)
+        self.field = ClearanceField.of(localizer.grid, self.distances.clearance_m)
+        self.estimate: Estimate | None = None
+        self.moved = Pose(0.0, 0.0, 0.0)
+        self.view: View | None = None
+
+    def __repr__(self) -> str:
+        return f"<Belief: {self.status}>"
+
+    @property
+    def grid(self) -> OccupancyGrid:
+        """The map."""
+        return self.localizer.grid
+
+    @property
+    def range_m(self) -> float:
+        """How far its lidar sees (m)."""
+        return 0.0 if self.view is None else self.view.range_m
+
+    @property
+    def bad_part(self) -> float:
+        """Which part of the beams of the last scan may be bad."""
+        return 0.0 if self.estimate is None or not self.estimate.beams else self.estimate.outliers_allowed / self.estimate.beams
+
+    @property
+    def status(self) -> str:
+        """The status of the last answer; ``blind`` before there is one."""
+        return "blind" if self.estimate is None else self.estimate.status
+
+    @property
+    def poses(self) -> Boxes:
+        """All poses that are possible, in the grid's frame."""
+        return self.localizer.poses.boxes if self.estimate is None else self.estimate.poses.boxes
+
+    def update(self, motion: Motion | None, scan: LaserScan) -> Estimate:
+        """Take a motion, None before the first scan, and a scan."""
+        self.estimate = self.localizer.update(motion, scan)
+        if motion is not None:
+            middle = 0.5 * (motion.lower + motion.upper)
+            self.moved = self.moved @ Pose(*middle.tolist())
+        last = scan.angle_min + (len(scan.ranges) - 1) * scan.angle_increment
+        first, last = min(scan.angle_min, last), max(scan.angle_min, last)
+        self.view = View(self.moved @ scan.mounting.pose, scan.range_max, first, last)
+        return self.estimate
+
+    def safe_ways(self, turns_rad: npt.ArrayLike, most_m: float) -> FloatArray:
+        """Return how far it can drive after some turns (m), wherever it is; −1 where no way is safe."""
+        return safe_ways(self.poses, turns_rad, most_m, self.field, self.distances, self.localizer.config.bounds.motion)
+
+    def groups(self) -> Groups:
+        """Return the parts of the set that a planner tells apart: connected, and about a metre and half a radian wide."""
+        boxes = self.poses
+        labels = np.zeros(len(boxes), dtype=np.int64) if self.estimate is None else self.estimate.poses.clusters.labels
+        middle = boxes.midpoint()
+        cells = np.floor(middle / [_GROUP_M, _GROUP_M, _GROUP_RAD]).astype(np.int64)
+        _, number = np.unique(np.column_stack([labels, cells]), axis=0, return_inverse=True)
+        number = number.reshape(-1)
+        order = np.argsort(number, kind="stable")
+        starts = np.searchsorted(number[order], np.arange(number.max(initial=-1) + 1))
+        volumes = np.add.reduceat(boxes.width().prod(axis=1)[order], starts) if len(order) else np.empty(0)
+        kept = np.sort(np.argsort(-volumes, kind="stable")[:MOST_GROUPS])
+        lower, upper = np.minimum.reduceat(boxes.lower[order], starts), np.maximum.reduceat(boxes.upper[order], starts)
+        centre = 0.5 * (lower + upper)
+        nearest = np.empty(len(starts), dtype=np.int64)
+        away = np.abs(middle - centre[number]).max(axis=1)
+        for group in kept.tolist():
+            rows = order[starts[group] : starts[group + 1] if group + 1 < len(starts) else None]
+            nearest[group] = rows[np.argmin(away[rows])]
+        return Groups(middle[nearest[kept]], Boxes(lower[kept], upper[kept]), labels[nearest[kept]])

@@ -1,0 +1,38 @@
+"""`Decision`: what a planner chose, and `Planner`: what chooses."""
+
+from dataclasses import dataclass
+from typing import Protocol, TypeVar
+
+from ial.active.robot import Drive
+
+BeliefT = TypeVar("BeliefT", contravariant=True)
+
+
+@dataclass(frozen=True)
+class Decision:
+    """What to do next, and why.
+
+    Parameters
+    ----------
+    drive
+        The command; None if nothing is left to do.
+    stage
+        What chose it: ``direction``, ``frontier``, ``backtrack``, or the name of another planner; ``exhausted`` if nothing is left.
+    reason
+        In words.
+    target
+        Where it leads in the end, x and y in metres in the frame of the robot at its start; None if it has no target.
+    """
+
+    drive: Drive | None
+    stage: str
+    reason: str
+    target: tuple[float, float] | None = None
+
+
+class Planner(Protocol[BeliefT]):
+    """Chooses what a robot does next, from what is known. One planner belongs to one run."""
+
+    def choose(self, belief: BeliefT) -> Decision:
+        """Return the next decision."""
+        ...

@@ -1,0 +1,56 @@
+"""`Robot`: what a planner needs of a robot: it looks, and it drives. A robot of your own has these two methods."""
+
+from dataclasses import dataclass
+from typing import Generic, Protocol, TypeVar
+
+MotionT = TypeVar("MotionT")
+ReadingT = TypeVar("ReadingT")
+SomeMotion = TypeVar("SomeMotion", covariant=True)
+SomeReading = TypeVar("SomeReading", covariant=True)
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A command: turn on the spot, then drive straight on.
+
+    Parameters
+    ----------
+    turn_rad
+        By how much to turn, counter-clockwise.
+    distance_m
+        How far to drive then.
+    """
+
+    turn_rad: float
+    distance_m: float
+
+
+@dataclass(frozen=True)
+class Driven(Generic[MotionT, ReadingT]):
+    """What came of a command.
+
+    Parameters
+    ----------
+    motion
+        What the odometry says, with its bounds.
+    reading
+        What the robot sees where it stopped.
+    collided
+        Whether it touched something and stopped early. The motion is right all the same.
+    """
+
+    motion: MotionT
+    reading: ReadingT
+    collided: bool = False
+
+
+class Robot(Protocol[SomeMotion, SomeReading]):
+    """Looks and drives. A lidar robot reads a scan; one with odometers alone reads how far it came."""
+
+    def look(self) -> SomeReading:
+        """Return what the robot sees where it is."""
+        ...
+
+    def drive(self, command: Drive) -> Driven[SomeMotion, SomeReading]:
+        """Obey a command, and look."""
+        ...
