@@ -18,9 +18,7 @@ from ial.pose import Pose
 
 FloatArray = npt.NDArray[np.float64]
 
-_GROUP_M, _GROUP_RAD = 1.0, 0.5
-MOST_GROUPS = 64
-"""Planners look at so many groups at most, the largest; what is safe is decided for all poses."""
+_GROUP_RAD = 0.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,23 +125,33 @@ class Belief:
         """Return how far it can drive after some turns (m), wherever it is; −1 where no way is safe."""
         return safe_ways(self.poses, turns_rad, most_m, self.field, self.distances, self.localizer.config.bounds.motion)
 
-    def groups(self) -> Groups:
-        """Return the parts of the set that a planner tells apart: connected, and about a metre and half a radian wide."""
+    def groups(self, width_m: float = 1.0, most: int = 64) -> Groups:
+        """Return the parts of the set that a planner tells apart.
+
+        Parameters
+        ----------
+        width_m
+            How wide a part is, about.
+        most
+            Of more, so many are returned, spread evenly over the connected parts of the set. Planners only prefer by them: what is safe is
+            decided for all poses.
+        """
         boxes = self.poses
         labels = np.zeros(len(boxes), dtype=np.int64) if self.estimate is None else self.estimate.poses.clusters.labels
         middle = boxes.midpoint()
-        cells = np.floor(middle / [_GROUP_M, _GROUP_M, _GROUP_RAD]).astype(np.int64)
+        cells = np.floor(middle / [width_m, width_m, _GROUP_RAD]).astype(np.int64)
         _, number = np.unique(np.column_stack([labels, cells]), axis=0, return_inverse=True)
         number = number.reshape(-1)
+        count = int(number.max(initial=-1)) + 1
+        if count > most:
+            kept = np.unique(np.linspace(0, count - 1, most).round().astype(np.int64))
+            new = np.full(count, -1)
+            new[kept] = np.arange(len(kept))
+            rows = new[number] >= 0
+            boxes, labels, middle, number = boxes[rows], labels[rows], middle[rows], new[number[rows]]
         order = np.argsort(number, kind="stable")
-        starts = np.searchsorted(number[order], np.arange(number.max(initial=-1) + 1))
-        volumes = np.add.reduceat(boxes.width().prod(axis=1)[order], starts) if len(order) else np.empty(0)
-        kept = np.sort(np.argsort(-volumes, kind="stable")[:MOST_GROUPS])
+        starts = np.flatnonzero(np.diff(number[order], prepend=-1))
         lower, upper = np.minimum.reduceat(boxes.lower[order], starts), np.maximum.reduceat(boxes.upper[order], starts)
-        centre = 0.5 * (lower + upper)
-        nearest = np.empty(len(starts), dtype=np.int64)
-        away = np.abs(middle - centre[number]).max(axis=1)
-        for group in kept.tolist():
-            rows = order[starts[group] : starts[group + 1] if group + 1 < len(starts) else None]
-            nearest[group] = rows[np.argmin(away[rows])]
-        return Groups(middle[nearest[kept]], Boxes(lower[kept], upper[kept]), labels[nearest[kept]])
+        away = np.abs(middle - 0.5 * (lower + upper)[number]).max(axis=1)
+        nearest = np.lexsort((away, number))[starts]
+        return Groups(middle[nearest], Boxes(lower, upper), labels[nearest])

@@ -28,8 +28,10 @@ class CommonSpace:
 
     Parameters
     ----------
+    here
+        A possible pose (x, y, θ): places are named as they are seen from it, in the grid's frame.
     groups
-        The poses; places are named as they are seen from the first.
+        All that are possible.
     field
         The map.
     distances
@@ -38,9 +40,9 @@ class CommonSpace:
         The distance between places.
     """
 
-    def __init__(self, groups: Groups, field: ClearanceField, distances: Distances, spacing_m: float) -> None:
+    def __init__(self, here: FloatArray, groups: Groups, field: ClearanceField, distances: Distances, spacing_m: float) -> None:
         self.spacing_m = spacing_m
-        self.here = Pose(*groups.poses[0].tolist())
+        self.here = Pose(*here.tolist())
         rows, columns = field.distance_m.shape
         self._columns = max(1, math.floor(columns * field.place_m / spacing_m))
         self._rows = max(1, math.floor(rows * field.place_m / spacing_m))

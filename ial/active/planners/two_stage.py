@@ -19,6 +19,9 @@ from ial.active.telling_apart import told_apart
 from ial.active.virtual_sensors import VirtualSensors, directions
 from ial.pose import Pose
 
+_SENSORS = 72  # of a view
+_MOST_PARTS = 500  # of a set, by which common space is judged
+
 
 @dataclass(frozen=True)
 class Options:
@@ -122,13 +125,18 @@ class TwoStagePlanner:
                 return Decision(drive, "direction", "further in the same direction")
             self._leg = None
         if self._target is not None:
-            space = CommonSpace(groups, belief.field, belief.distances, self.options.spacing_m)
+            space = self._space(belief, groups)
             decision = self._towards(belief, space, self._target, "frontier", "further to the same frontier")
             if decision is not None:
                 return decision
             self._done.append((self._target.x, self._target.y))
             self._target, self._tried_here = None, False
         return None
+
+    def _space(self, belief: Belief, groups: Groups) -> CommonSpace:
+        return CommonSpace(
+            groups.poses[0], belief.groups(self.options.spacing_m, _MOST_PARTS), belief.field, belief.distances, self.options.spacing_m
+        )
 
     def _by_direction(self, belief: Belief, groups: Groups) -> Decision | None:
         turns = directions(self.options.directions)
@@ -152,7 +160,7 @@ class TwoStagePlanner:
 
     def _by_frontier(self, belief: Belief, groups: Groups) -> Decision:
         start = Pose(*groups.poses[0].tolist()) @ belief.moved.inverse()
-        space = CommonSpace(groups, belief.field, belief.distances, self.options.spacing_m)
+        space = self._space(belief, groups)
         candidates = self._known(start, self._area.frontiers(start, self.options.least_cells))
         while candidates:
             best = max(candidates, key=lambda each: (each.born, self._score(groups, space, start, each)))
@@ -185,8 +193,8 @@ class TwoStagePlanner:
 
     def _apart(self, groups: Groups, ahead: float, aside: float) -> int:
         """Return how many pairs of groups would be told apart from so far ahead of the robot and to its left."""
-        turns = directions(self.options.directions)
-        readings = np.minimum(self._sensors.readings(moved_along(groups.poses, ahead, aside), turns), self.belief.range_m)
+        readings = self._sensors.readings(moved_along(groups.poses, ahead, aside), directions(_SENSORS))
+        readings = np.minimum(readings, self.belief.range_m)
         return told_apart(readings, self.options.weights.same_m, self.belief.bad_part)
 
     def _known(self, start: Pose, frontiers: list[Frontier]) -> list[_Open]:
