@@ -52,10 +52,10 @@ class CommonSpace:
         away = np.hypot(ahead, aside)
         spare = np.full(len(self._x), np.inf)
         halves = 0.5 * groups.hulls.width()
-        for (px, py, heading), (wide, high, turn) in zip(groups.poses.tolist(), halves.tolist(), strict=True):
+        for (px, py, heading), (wide, high, _) in zip(groups.poses.tolist(), halves.tolist(), strict=True):
             cosine, sine = math.cos(heading), math.sin(heading)
             clear = field.at(px + cosine * ahead - sine * aside, py + sine * ahead + cosine * aside)
-            spare = np.minimum(spare, clear - distances.radius_m - math.hypot(wide, high) - np.minimum(turn * away, spacing_m))
+            spare = np.minimum(spare, clear - distances.radius_m - math.hypot(wide, high))
         free = (spare >= 0.0) | (away < spacing_m)  # it stands there
         wanted = distances.clearance_m - distances.radius_m + spacing_m
         self._dear = 1.0 + _DEAREST * np.clip((wanted - spare) / wanted, 0.0, 1.0)

@@ -222,7 +222,7 @@ class TwoStagePlanner:
         start = space.here @ belief.moved.inverse()
         at = start @ Pose(frontier.x, frontier.y, 0.0)
         place = space.nearest(at.x, at.y, self.options.near_m)
-        if place is None:
+        if place is None or math.hypot(at.x - space.here.x, at.y - space.here.y) < self.options.near_m / 2.0:
             return None
         points = space.path(place)
         if not points:
