@@ -5,6 +5,9 @@ import numpy.typing as npt
 
 FloatArray = npt.NDArray[np.float64]
 
+SENSORS = 72
+"""How many directions a view is compared in."""
+
 
 def told_apart(readings: FloatArray, same_m: float, bad_part: float) -> int:
     """Return how many pairs of places a scan would tell apart.
