@@ -72,6 +72,8 @@ class Belief:
         Where it is, by the middle of its odometry, in the frame of its start.
     view
         What the last scan can have seen; None before the first.
+    motion, scan
+        The last ones; None before them.
     """
 
     def __init__(self, localizer: Localizer, radius_m: float) -> None:
@@ -81,6 +83,8 @@ class Belief:
         self.estimate: Estimate | None = None
         self.moved = Pose(0.0, 0.0, 0.0)
         self.view: View | None = None
+        self.motion: Motion | None = None
+        self.scan: LaserScan | None = None
 
     def __repr__(self) -> str:
         return f"<Belief: {self.status}>"
@@ -113,6 +117,7 @@ class Belief:
     def update(self, motion: Motion | None, scan: LaserScan) -> Estimate:
         """Take a motion, None before the first scan, and a scan."""
         self.estimate = self.localizer.update(motion, scan)
+        self.motion, self.scan = motion, scan
         if motion is not None:
             middle = 0.5 * (motion.lower + motion.upper)
             self.moved = self.moved @ Pose(*middle.tolist())
