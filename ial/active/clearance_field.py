@@ -61,7 +61,7 @@ class ClearanceField:
         """Return the distances to the places of a mask, which has one at least; outside of it there is none."""
         # Squares k columns and l rows apart are max(k − 1, 0) and max(l − 1, 0) of their width apart: that is the distance between
         # centres, with each square of the mask grown by its neighbours.
-        apart = ndimage.distance_transform_edt(~ndimage.binary_dilation(mask, np.ones((3, 3))))
+        apart = ndimage.distance_transform_edt(~ndimage.binary_dilation(mask, np.ones((3, 3), dtype=np.bool_)))
         return cls(np.asarray(apart, dtype=np.float64) * (place_m * BELOW), place_m)
 
     @property

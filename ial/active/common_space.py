@@ -61,9 +61,8 @@ class CommonSpace:
         self._dear = 1.0 + _DEAREST * np.clip((wanted - spare) / wanted, 0.0, 1.0)
         self._free = free
         self._graph = self._linked(free)
-        self._ways, self._before = dijkstra(
-            self._graph, directed=False, indices=self._place(self.here.x, self.here.y), return_predecessors=True
-        )
+        begin = self._place(self.here.x, self.here.y)
+        (self._ways,), (self._before,) = dijkstra(self._graph, directed=False, indices=[begin], return_predecessors=True)
 
     def __repr__(self) -> str:
         return f"<CommonSpace: {int(self._free.sum())} of {len(self._free)} places>"
@@ -84,7 +83,7 @@ class CommonSpace:
     def _place(self, x: float, y: float) -> int:
         column = min(max(math.floor(x / self.spacing_m), 0), self._columns - 1)
         row = min(max(math.floor(y / self.spacing_m), 0), self._rows - 1)
-        return row * self._columns + column
+        return int(row * self._columns + column)
 
     def nearest(self, x: float, y: float, most_m: float) -> int | None:
         """Return the place nearest to a point that can be reached, at most so far from it; None if there is none."""

@@ -5,8 +5,6 @@ from typing import Generic, Protocol, TypeVar
 
 MotionT = TypeVar("MotionT")
 ReadingT = TypeVar("ReadingT")
-SomeMotion = TypeVar("SomeMotion", covariant=True)
-SomeReading = TypeVar("SomeReading", covariant=True)
 
 
 @dataclass(frozen=True)
@@ -44,13 +42,13 @@ class Driven(Generic[MotionT, ReadingT]):
     collided: bool = False
 
 
-class Robot(Protocol[SomeMotion, SomeReading]):
+class Robot(Protocol[MotionT, ReadingT]):
     """Looks and drives. A lidar robot reads a scan; one with odometers alone reads how far it came."""
 
-    def look(self) -> SomeReading:
+    def look(self) -> ReadingT:
         """Return what the robot sees where it is."""
         ...
 
-    def drive(self, command: Drive) -> Driven[SomeMotion, SomeReading]:
+    def drive(self, command: Drive) -> Driven[MotionT, ReadingT]:
         """Obey a command, and look."""
         ...

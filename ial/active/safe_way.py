@@ -121,7 +121,7 @@ def safe_ways(
     # What is rounded on the way are sums of terms as large as the map.
     wanted = distances.radius_m, distances.clearance_m, ROUNDINGS * (field.size_m + most_m)
     threads.run(_march, chunks, lower, upper, turns, field.distance_m, field.place_m, wanted, (turned, grown), step, count, safe, minimum=1)
-    whole = safe.all(axis=0)
+    whole = np.logical_and.reduce(safe, axis=0)
     last = count - 1 - np.argmax(whole[:, ::-1], axis=1)
     return np.where(whole.any(axis=1), last * step, -1.0)
 

@@ -1,5 +1,7 @@
-"""`MarkovLocalization`: a histogram over a grid of poses (Fox, Burgard, Thrun: Markov localization for mobile robots in dynamic environments,
-1999): what active localization by entropy is usually built on, and here to compare with."""
+"""`MarkovLocalization`: a histogram over a grid of poses: what active localization by entropy is built on, here to compare with.
+
+After Fox, Burgard, Thrun: Markov localization for mobile robots in dynamic environments (1999).
+"""
 
 import math
 from dataclasses import dataclass
@@ -49,8 +51,8 @@ class HistogramOptions:
     def __post_init__(self) -> None:
         if not (self.cell_m > 0.0 and self.sigma_m > 0.0 and 0.0 < self.unexplained < 1.0):
             raise ConfigError(
-                f"cells of {self.cell_m:g} m, sigma {self.sigma_m:g} m and {self.unexplained:g} unexplained; give positive lengths, and a part "
-                "of 1"
+                f"cells of {self.cell_m:g} m, sigma {self.sigma_m:g} m and {self.unexplained:g} unexplained; give positive lengths and "
+                "a part of 1"
             )
         if self.headings < 4 or self.beams < 1 or self.headings % self.beams:
             raise ConfigError(f"{self.headings} headings and {self.beams} beams; give at least 4 headings, and beams that divide them")

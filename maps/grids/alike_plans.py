@@ -1,4 +1,4 @@
-"""Floor plans in which many places look alike, to try active localization on: each by its name, all without anything that is drawn at random.
+"""Floor plans in which many places look alike, to try active localization on. Nothing in them is drawn at random.
 
 Shapes are filled on a dark picture, so that what is not drawn is wall.
 """

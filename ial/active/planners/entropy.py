@@ -1,5 +1,8 @@
-"""`EntropyPlanner`: the neighbouring cell after which the least entropy is to be expected (Fox, Burgard, Thrun 1998, one step), over a
-histogram that is kept within the set; and `TargetPlanner`, which looks at places farther away and at what the way there costs."""
+"""`EntropyPlanner` and `TargetPlanner`: where the least entropy is to be expected, over a histogram that is kept within the set.
+
+The former looks at the neighbouring cells alone, the latter at places farther away and at what the way there costs (Fox, Burgard, Thrun:
+Active Markov localization for mobile robots, 1998).
+"""
 
 import math
 

@@ -1,0 +1,76 @@
+import math
+
+import numpy as np
+import pytest
+
+from ial.active.clearance_field import ClearanceField
+from ial.active.safe_way import Distances, safe_ways
+from ial.contractors.boxes import Boxes
+from ial.errors import ConfigError
+from ial.pose import Pose
+from tests.active.scenes import CLEARANCE_M, MOTION, RADIUS_M, distance_to_walls, room
+
+GRID = room()
+FIELD = ClearanceField.of(GRID, CLEARANCE_M)
+KEPT = Distances(RADIUS_M, CLEARANCE_M)
+
+
+def some_poses(random: np.random.Generator) -> np.ndarray:
+    """Poses with clearance."""
+    found = []
+    while len(found) < 3:
+        x, y, theta = random.uniform([0.4, 0.4, -3.0], [5.6, 3.6, 3.0]).tolist()
+        if distance_to_walls(GRID, x, y) >= CLEARANCE_M + 0.12:
+            found.append((x, y, theta))
+    return np.array(found)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_whatever_pose_is_true_and_however_it_errs_it_keeps_its_distances(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    turns = random.uniform(-math.pi, math.pi, 6)
+    boxes = Boxes.around(some_poses(random), [0.05, 0.05, 0.02])
+    ways = safe_ways(boxes, turns, 1.0, FIELD, KEPT, MOTION)
+    assert (ways > 0.0).any()
+    for turn, way in zip(turns.tolist(), ways.tolist(), strict=True):
+        if way < 0.0:
+            continue
+        told = MOTION.enclose(Pose(way * math.cos(turn), way * math.sin(turn), turn))
+        half = 0.5 * (told.upper - told.lower)[:2]
+        for row in range(len(boxes)):
+            for _ in range(30):
+                x, y, theta = (
+                    random.choice([boxes.lower[row], boxes.upper[row]])
+                    if random.random() < 0.3
+                    else random.uniform(boxes.lower[row], boxes.upper[row])
+                )
+                if distance_to_walls(GRID, x, y) < CLEARANCE_M:
+                    continue  # it cannot be there
+                error = half * random.choice([-1.0, 1.0], 2)
+                for part in np.linspace(0.0, 1.0, 12).tolist():
+                    ahead, aside = part * way * math.cos(turn) + part * error[0], part * way * math.sin(turn) + part * error[1]
+                    at = (x + math.cos(theta) * ahead - math.sin(theta) * aside, y + math.sin(theta) * ahead + math.cos(theta) * aside)
+                    assert distance_to_walls(GRID, *at) >= (CLEARANCE_M if part == 1.0 else RADIUS_M)
+
+
+def test_a_way_is_nearly_as_long_as_it_can_be() -> None:
+    at = Boxes.around([(1.0, 1.0, 0.0)], [0.0, 0.0, 0.0])
+    (way,) = safe_ways(at, [0.0], 10.0, FIELD, KEPT, MOTION).tolist()
+    assert 5.95 - 1.0 - CLEARANCE_M - 0.35 < way < 5.95 - 1.0 - CLEARANCE_M
+
+
+def test_of_several_poses_the_nearest_to_a_wall_decides() -> None:
+    one, other = Boxes.around([(1.0, 1.0, 0.0)], [0.01] * 3), Boxes.around([(3.0, 1.0, 0.0)], [0.01] * 3)
+    ways = [safe_ways(each, [0.0, 1.0], 10.0, FIELD, KEPT, MOTION) for each in (one, other, Boxes.concatenate([one, other]))]
+    assert (ways[2] <= np.minimum(ways[0], ways[1])).all()
+
+
+def test_a_pose_without_clearance_is_impossible_and_in_nobodys_way() -> None:
+    near, far = Boxes.around([(0.2, 2.0, 0.0)], [0.01] * 3), Boxes.around([(3.0, 1.0, 0.0)], [0.01] * 3)
+    assert safe_ways(Boxes.concatenate([near, far]), [0.0], 0.5, FIELD, KEPT, MOTION) == safe_ways(far, [0.0], 0.5, FIELD, KEPT, MOTION)
+
+
+@pytest.mark.parametrize(("radius", "clearance"), [(-0.1, 0.2), (0.3, 0.2), (math.nan, 0.2), (0.1, math.inf)])
+def test_distances_that_cannot_be_meant(radius: float, clearance: float) -> None:
+    with pytest.raises(ConfigError, match=r"radius of the robot is|clearance is"):
+        Distances(radius, clearance)
