@@ -132,3 +132,18 @@ def test_what_lies_closer_together_than_doubles_tell_is_decided_exactly() -> Non
 def test_directions_may_be_larger_than_doubles() -> None:
     hit = Shooter(L).shoot((Fraction(1), Fraction(1)), (10**400, 10**400 - 1))
     assert hit.place == end_of_ray(L, (Fraction(1), Fraction(1)), (10**400, 10**400 - 1))
+
+
+def test_of_walls_closer_together_than_doubles_tell_the_first_one_stops_it() -> None:
+    """One spike comes from above, and ends just below the ray; behind it one from below ends just above the ray."""
+    chooser, tiny = random.Random(3), Fraction(1, 10**18)
+    for _ in range(60):
+        ux, uy = 40, chooser.randrange(10, 30)
+        start = Fraction(chooser.randrange(-20, 0), 10), Fraction(chooser.randrange(5), 10)
+        way, gap = Fraction(chooser.randrange(30, 90), 1001), tiny * chooser.choice([2, 3, 7])
+        (x0, y0), (x1, y1) = ((start[0] + part * ux, start[1] + part * uy) for part in (way, way + gap))
+        one, other = (Fraction(chooser.randrange(1, 400), 97) for _ in range(2))
+        above = [(x0 + one + 1, Fraction(9)), (x0, y0 - tiny), (x0 + one, Fraction(9))]
+        below = [(x1 - other - 1, Fraction(-3)), (x1, y1 + tiny), (x1 - other, Fraction(-3))]
+        polygon = Polygon(((-12, -3), *below, (12, -3), (12, 9), *above, (-12, 9)))  # type: ignore[arg-type]
+        assert Shooter(polygon).shoot(start, (ux, uy)).place == end_of_ray(polygon, start, (ux, uy))
