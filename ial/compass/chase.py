@@ -47,7 +47,7 @@ class Chase:
         return f"<Chase in {self._shooter!r}>"
 
     def search(self, state: InformationState, pairs: list[Pair]) -> list[Direction] | None:
-        """Return motions after which two points are one or on one wall, None if none were found.
+        """Return motions after which there are fewer points, None if none were found.
 
         Parameters
         ----------
@@ -60,55 +60,43 @@ class Chase:
         queue: list[tuple[float, float, int, Points, Pair, list[Direction]]] = []
         for pair in pairs:
             heappush(queue, (*self._promise(state.points, pair, 0), next(order), state.points, pair, []))
-        seen = {_key(state.points)}
+        seen = {key(state.points)}
         for _ in range(_MOST_TRIES * (1 + 4 * self._wide)):
             if not queue:
                 return None
             _, _, _, points, pair, directions = heappop(queue)
-            best: tuple[int, int, Direction] | None = None
-            children = []
-            for way in dict.fromkeys(self._ways(points, pair)):
-                moved = tuple(self._transition.point(point, way) for point in points) if bits(way) <= MOST_BITS else points
-                if _key(moved) in seen:
-                    continue
-                seen.add(_key(moved))
-                children.append((way, moved))
-                places = {point.place: point for point in moved}
-                shared = self._on_shared_walls(list(places.values()))
-                if len(places) < len(points) or shared:
-                    best = min(best or (len(places), -shared, way), (len(places), -shared, way))
-            if best is not None:
-                return [*directions, best[2]]
-            for way, moved in children:
-                longer = [*directions, way]
-                heappush(queue, (*self._promise(moved, pair, len(longer)), next(order), moved, pair, longer))
+            ways = [each for each in dict.fromkeys(self._ways(points, pair)) if bits(each) <= MOST_BITS]
+            images = self._transition.points(points, ways)
+            left = [len({point.place for point in moved}) for moved in images]
+            if min(left) < len(points):
+                return [*directions, ways[left.index(min(left))]]
+            for way, moved in zip(ways, images, strict=True):
+                if key(moved) not in seen:
+                    seen.add(key(moved))
+                    longer = [*directions, way]
+                    heappush(queue, (*self._promise(moved, pair, len(longer)), next(order), moved, pair, longer))
         return None
 
     def _promise(self, points: Points, pair: Pair, taken: int) -> tuple[float, float]:
         """Return how many motions a chase will take about, those that it has taken included, and how far the two points are apart."""
-        one, other = points[pair[0]].place, points[pair[1]].place
-        return taken + len(self._paths.path(one, other)) - 1, self._paths.length(one, other)
-
-    def _on_shared_walls(self, points: list[BoundaryPoint]) -> int:
-        """Return how many points lie on walls on which another one lies."""
-        carried: dict[int, int] = {}
-        for point in points:
-            for edge in edges_of(self._shooter, point):
-                carried[edge] = carried.get(edge, 0) + 1
-        return sum(held for held in carried.values() if held > 1)
+        one, other = points[pair[0]], points[pair[1]]
+        if edges_of(self._shooter, one) & edges_of(self._shooter, other):
+            return taken, 0.0
+        length, path = self._paths.route(one.place, other.place)
+        return taken + len(path) - 1, length
 
     def _ways(self, points: Points, pair: Pair) -> Iterator[Direction]:
         """Yield directions in which one of two points drives to the other, or to the first turn on the way there; and along its walls."""
         for one, other in ((points[pair[0]], points[pair[1]]), (points[pair[1]], points[pair[0]])):
+            for edge in range(len(self._shooter)) if self._wide else sorted(edges_of(self._shooter, one)):
+                yield wall_direction(self._shooter, edge)
+                yield reverse(wall_direction(self._shooter, edge))
             x, y = self._paths.path(one.place, other.place)[1]
             largest = max(abs(x - one.x), abs(y - one.y))
             dx, dy = float(rational(x - one.x) / largest), float(rational(y - one.y) / largest)
             for tilt in _TILTS + _MORE_TILTS * self._wide:
                 scale = 2.0**_DIRECTION_BITS / max(1.0, 2.0 * abs(tilt))
                 yield primitive(round((dx - tilt * dy) * scale), round((dy + tilt * dx) * scale))
-            for edge in range(len(self._shooter)) if self._wide else sorted(edges_of(self._shooter, one)):
-                yield wall_direction(self._shooter, edge)
-                yield reverse(wall_direction(self._shooter, edge))
 
 
 def edges_of(shooter: Shooter, point: BoundaryPoint) -> set[int]:
@@ -116,6 +104,6 @@ def edges_of(shooter: Shooter, point: BoundaryPoint) -> set[int]:
     return {point.edge, shooter.before[point.edge]} if point.corner else {point.edge}
 
 
-def _key(points: Points) -> tuple[tuple[float, float], ...]:
+def key(points: Points) -> tuple[tuple[float, float], ...]:
     """Return what tells places of points apart, but for roundings."""
     return tuple((round(float(point.x), 6), round(float(point.y), 6)) for point in points)

@@ -1,6 +1,7 @@
 """`Transition`: which information state follows from another by a motion, exactly."""
 
 from collections import OrderedDict
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -35,25 +36,33 @@ class Transition:
     def __call__(self, state: InformationState, direction: Direction) -> InformationState:
         """Return every place in which a robot of the state can stop that drives in a direction."""
         pieces: list[Piece] = []
-        points = [self.point(point, direction) for point in state.points]
+        inside: list[BoundaryPoint] = []
+        points: list[BoundaryPoint] = []
         for piece in state.pieces:
             strips = self.strips(direction)
             turn = strips.turn(piece.edge)
             if turn < 0:
                 pieces.append(piece)
             elif turn == 0:
-                inside = self.shooter.on_edge(piece.edge, (piece.low + piece.high) / 2)
-                points.append(self.point(inside, direction))
+                inside.append(self.shooter.on_edge(piece.edge, (piece.low + piece.high) / 2))
             else:
                 _sweep(strips, piece, pieces, points)
+        points += self.points([*state.points, *inside], [direction])[0]
         return InformationState.of(self.shooter, pieces, points)
 
-    def point(self, point: BoundaryPoint, direction: Direction) -> BoundaryPoint:
-        """Return where a robot stops that starts at a point of the boundary."""
-        ex, ey = self.shooter.edges[point.edge]
-        if not point.corner and ex * direction[1] < ey * direction[0]:
-            return point  # it drives into the wall on which it is
-        return self.shooter.shoot(point.place, direction)
+    def points(self, points: Sequence[BoundaryPoint], directions: Sequence[Direction]) -> list[tuple[BoundaryPoint, ...]]:
+        """Return for each of some directions where robots stop that start at points of the boundary."""
+        images = [list(points) for _ in directions]
+        leaving = []
+        for at, (ux, uy) in enumerate(directions):
+            for number, point in enumerate(points):
+                ex, ey = self.shooter.edges[point.edge]
+                if point.corner or ex * uy >= ey * ux:  # others drive into the wall on which they are
+                    leaving.append((at, number))
+        stops = self.shooter.shoot_all([points[number].place for _, number in leaving], [directions[at] for at, _ in leaving])
+        for (at, number), stop in zip(leaving, stops, strict=True):
+            images[at][number] = stop
+        return [tuple(each) for each in images]
 
     def strips(self, direction: Direction) -> Strips:
         """Return the strips of a direction, those that were needed last without computing them again."""

@@ -12,6 +12,8 @@ from ial.maps.polygons.polygon import ExactPoint
 
 FloatArray = npt.NDArray[np.float64]
 
+_KEPT = 10_000  # points whose sight is kept: a search asks for the same ones again and again
+
 
 class ShortestPaths:
     """Shortest paths by the graph of corners that see each other.
@@ -41,6 +43,8 @@ class ShortestPaths:
         self.visibility = visibility
         self._position = {corner: at for at, corner in enumerate(visibility.turns)}
 
+        self._fans: dict[tuple[Rational, Rational], tuple[npt.NDArray[np.int64], FloatArray]] = {}
+
     def __repr__(self) -> str:
         return f"<ShortestPaths in {self.visibility.shooter!r}>"
 
@@ -56,8 +60,12 @@ class ShortestPaths:
         one, other
             x and y in metres, in the closed polygon; elsewhere the result means nothing.
         """
+        return self.route(one, other)[1]
+
+    def route(self, one: Place, other: Place) -> tuple[float, list[ExactPoint]]:
+        """Return the length of the shortest path and the path itself."""
         places = self.visibility.shooter.corners
-        _, begin, end = self._best(one, other)
+        length, begin, end = self._best(one, other)
         corners: list[int] = []
         if end is not None and begin is not None:
             _, came_from = self._tables
@@ -70,18 +78,35 @@ class ShortestPaths:
         for place in (*(places[corner] for corner in corners), (other[0], other[1])):
             if place != found[-1]:
                 found.append(place)
-        return found
+        return length, found
 
     def fan(self, place: Place) -> tuple[npt.NDArray[np.int64], FloatArray]:
         """Return the corners where a path from a point can turn first, as positions in `Visibility.turns`, and how far they are."""
+        key = place[0], place[1]
+        if key in self._fans:
+            return self._fans[key]
+        if len(self._fans) >= _KEPT:
+            self._fans.clear()
         seen = self.visibility.seen_turns(place)
         far = [_distance(place, self.visibility.shooter.corners[corner]) for corner in seen]
-        return np.array([self._position[corner] for corner in seen], dtype=np.int64), np.array(far)
+        self._fans[key] = np.array([self._position[corner] for corner in seen], dtype=np.int64), np.array(far)
+        return self._fans[key]
 
     @property
     def between(self) -> FloatArray:
         """The lengths of the shortest paths between all pairs of corners of `Visibility.turns`, in metres."""
         return self._tables[0]
+
+    @cached_property
+    def hops(self) -> npt.NDArray[np.int64]:
+        """How many straight parts the shortest paths between all pairs of corners of `Visibility.turns` have."""
+        lengths, came_from = self._tables
+        parts = np.zeros(lengths.shape, dtype=np.int64)
+        for begin, before in enumerate(came_from):
+            for end in np.argsort(lengths[begin], kind="stable").tolist():
+                if before[end] >= 0:
+                    parts[begin, end] = 1 + parts[begin, before[end]]
+        return parts
 
     def _best(self, one: Place, other: Place) -> tuple[float, int | None, int | None]:
         """Return the length of the shortest path, and where it turns first and last."""

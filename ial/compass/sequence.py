@@ -1,0 +1,47 @@
+"""`Sequence`: motions after which a robot with a compass knows where it is, from wherever it starts."""
+
+from dataclasses import dataclass
+
+from ial.compass.primitive import Direction, bits
+from ial.maps.polygons.polygon import ExactPoint, Polygon
+
+Sizes = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Sequence:
+    """A localizing sequence and its certificate.
+
+    The certificate is about the whole closed polygon. Every point of it that a motion moves is on the way of a point of the boundary, which
+    the same motion leads to the same place: go back from it against the motion until a wall is there. So one motion maps the polygon to
+    what it maps the boundary to, and the boundary is all that has to be followed; a robot that starts inside needs no motion before the
+    first one.
+
+    Parameters
+    ----------
+    polygon
+        The environment.
+    directions
+        Where the robot drives until it is stopped, step by step: whole numbers (x, y) without a common divisor.
+    sizes
+        Of how many open pieces of walls and how many further points the information state consists: at first, when it is the whole
+        boundary, and after each step.
+    end
+        Where the robot is at last, exactly, in metres.
+    """
+
+    polygon: Polygon
+    directions: tuple[Direction, ...]
+    sizes: tuple[Sizes, ...]
+    end: ExactPoint
+
+    def __len__(self) -> int:
+        return len(self.directions)
+
+    def __repr__(self) -> str:
+        return f"<Sequence of {len(self)} motions in {self.polygon!r}, ends at ({float(self.end[0]):g}, {float(self.end[1]):g})>"
+
+    @property
+    def bits(self) -> int:
+        """How many bits the longest component of a direction has."""
+        return max(map(bits, self.directions), default=0)
