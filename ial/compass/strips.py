@@ -1,6 +1,7 @@
 """`Strips`: the free space cut by the lines through its corners in one direction, and which wall is ahead of which in each strip."""
 
 from bisect import bisect_left
+from collections.abc import Sequence
 from functools import cmp_to_key
 
 import numpy as np
@@ -81,12 +82,18 @@ class Strips:
         corner = at < len(self.levels) and self.levels[at] == level
         return (at if corner else at - 1), corner
 
-    def passed(self, edge: int, rank: int) -> BoundaryPoint:
-        """Return where a robot stops that starts inside of an edge at the level of some corner."""
-        if (edge, rank) not in self._passed:
-            start = self.shooter.on_edge(edge, self.part(edge, self.levels[rank]))
-            self._passed[edge, rank] = self.shooter.shoot(start.place, self.direction)
-        return self._passed[edge, rank]
+    def passed(self, places: Sequence[tuple[int, int]]) -> list[BoundaryPoint]:
+        """Return where robots stop that start inside of edges at the levels of some corners.
+
+        Parameters
+        ----------
+        places
+            For each robot the number of the edge, and that of the level.
+        """
+        new = [each for each in dict.fromkeys(places) if each not in self._passed]
+        starts = [self.shooter.on_edge(edge, self.part(edge, rational(self.levels[rank]))).place for edge, rank in new]
+        self._passed.update(zip(new, self.shooter.shoot_all(starts, [self.direction] * len(new)), strict=True))
+        return [self._passed[each] for each in places]
 
     def _order(self) -> npt.NDArray[np.int32]:
         """Sort the walls of each strip by doubles, and exactly where these do not tell."""

@@ -37,7 +37,7 @@ class Transition:
         """Return every place in which a robot of the state can stop that drives in a direction."""
         pieces: list[Piece] = []
         inside: list[BoundaryPoint] = []
-        points: list[BoundaryPoint] = []
+        passing: list[tuple[int, int]] = []
         for piece in state.pieces:
             strips = self.strips(direction)
             turn = strips.turn(piece.edge)
@@ -46,9 +46,10 @@ class Transition:
             elif turn == 0:
                 inside.append(self.shooter.on_edge(piece.edge, (piece.low + piece.high) / 2))
             else:
-                _sweep(strips, piece, pieces, points)
-        points += self.points([*state.points, *inside], [direction])[0]
-        return InformationState.of(self.shooter, pieces, points)
+                _sweep(strips, piece, pieces, passing)
+        points = self.points([*state.points, *inside], [direction])[0]
+        passed = self.strips(direction).passed(passing) if passing else []
+        return InformationState.of(self.shooter, pieces, [*points, *passed])
 
     def points(self, points: Sequence[BoundaryPoint], directions: Sequence[Direction]) -> list[tuple[BoundaryPoint, ...]]:
         """Return for each of some directions where robots stop that start at points of the boundary."""
@@ -75,8 +76,8 @@ class Transition:
         return self._strips[direction]
 
 
-def _sweep(strips: Strips, piece: Piece, pieces: list[Piece], points: list[BoundaryPoint]) -> None:
-    """Add the image of a piece with free space ahead: a piece for each wall that is hit, and a point for each corner in between."""
+def _sweep(strips: Strips, piece: Piece, pieces: list[Piece], passing: list[tuple[int, int]]) -> None:
+    """Add the image of a piece with free space ahead: a piece for each wall that is hit, and the places from which corners are passed."""
     edge = piece.edge
     high, low = rational(strips.level(edge, piece.low)), rational(strips.level(edge, piece.high))  # the level falls along such an edge
     first, (last, exact) = strips.strip(low)[0], strips.strip(high)
@@ -90,5 +91,5 @@ def _sweep(strips: Strips, piece: Piece, pieces: list[Piece], points: list[Bound
         upper = high if change == len(hits) else strips.levels[first + change]
         pieces.append(Piece(hit, strips.part(hit, lower), strips.part(hit, upper)))
         if change < len(hits):
-            points.append(strips.passed(edge, first + change))
+            passing.append((edge, first + change))
         begin = change
