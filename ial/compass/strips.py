@@ -8,13 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.compass.primitive import Direction
+from ial.contractors.margins import ROUNDINGS
 from ial.maps.polygons.exact.rational import Rational, rational
 from ial.maps.polygons.exact.shooter import BoundaryPoint, Shooter
-
-_DOUBT = 4e-15
-"""Times 1 + the slope of a wall, of the extent of the polygon: doubles err by less than half of it about how far ahead the wall is. Levels
-and ways are from 0 to 1 and rounded once, so a rise errs by 3 · 2⁻⁵³, and a slope by that as a part of the rise, which a point of the wall
-is at most away from its end: five roundings times the slope, and three more of numbers up to 2."""
 
 STAYS = -1  # ahead of a wall that the direction leads into
 NOT_HERE = -2  # the wall does not reach the strip
@@ -113,7 +109,7 @@ class Strips:
         numbers = np.arange(strips)[:, None]
         here = (np.minimum(begin, end) <= numbers) & (numbers < np.maximum(begin, end))
         way = np.where(here, way, np.inf)
-        error = np.where(flat, np.inf, _DOUBT * (1.0 + np.abs(slope)))
+        error = np.where(flat, np.inf, ROUNDINGS * (1.0 + np.abs(slope)))  # see below
         order = np.argsort(way, axis=1, kind="stable")
         held = here.sum(axis=1)
         sorted_way, sorted_error = np.take_along_axis(way, order, 1), error[order]

@@ -233,7 +233,7 @@ def test_a_lidar_in_one_or_several_maps_holds_the_truth(seed: int) -> None:
 @pytest.mark.parametrize("seed", range(3))
 def test_a_bouncing_robot_with_real_geometry_holds_the_truth(seed: int) -> None:
     environment = random_environment(seed)
-    model = RayModel(environment, Fraction(97), Fraction(1, 2))
+    model = RayModel(environment, Fraction(97), Fraction(1, 2), most_pieces=4000)
     running = SetMembershipFilter(model, "restart")
     bumps = 0
     for pose in islice(RealRobot(environment, Fraction(97), Fraction(1, 2), seed=seed).run(), 60):

@@ -1,5 +1,6 @@
 """`PieceFilter`: the set filter of a robot with real geometry and bounded errors, and when it counts as localized."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -67,6 +68,15 @@ class PieceFilter:
         if start == ANYWHERE:
             return replace(self, first=None)
         return replace(self, first=FirstBumps.of(self.map, Legs(self.map.walls, self.bounce_deg, self.step_m, self.bounds), start))
+
+    def after_bumps(self, observations: Iterable[int]) -> list[PieceSet]:
+        """Return what is left after each bump of a stream."""
+        model, sets = self.model, []
+        states = model.universe()
+        for observation in observations:
+            states = model.step(states, None, observation)
+            sets += [states] * observation
+        return sets
 
     def box(self, states: PieceSet) -> tuple[float, float, float, float] | None:
         """Return a rectangle that holds the place of the last bump: least x and y, greatest x and y; None if there is none to tell."""

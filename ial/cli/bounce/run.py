@@ -5,8 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
-from ial.cli.bounce.observed import StreamBits, StreamFile, observations
-from ial.cli.bounce.options import number
+from ial.cli.bounce.observed import ClockError, LogFile, Speed, SpeedError, StreamBits, StreamFile, TurnTime, observations, timing
 from ial.cli.shell.options import Json
 from ial.cli.shell.terminal import say, say_json, say_json_line
 from ial.errors import StreamError
@@ -22,19 +21,11 @@ def run(
     filter_path: Annotated[Path, typer.Argument(metavar="FILTER", help="What `ial bounce build` has written.")],
     stream: StreamBits = None,
     file: StreamFile = None,
-    log: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="A log of bumps with times, .csv or .jsonl; - for standard input."),
-    ] = None,
-    speed: Annotated[str | None, typer.Option(metavar="M/S", help="With --log: how fast the robot drives.")] = None,
-    turn_time: Annotated[str | None, typer.Option(metavar="S", help="With --log: how long a turn takes.")] = None,
-    clock_error: Annotated[
-        str | None, typer.Option(metavar="S", help="With --log: bound of the error of the time driven between bumps.")
-    ] = None,
-    speed_error: Annotated[
-        str | None,
-        typer.Option(metavar="PART", help="With --log: bound of the error of the speed, as a part of it; refused if the filter has less."),
-    ] = None,
+    log: LogFile = None,
+    speed: Speed = None,
+    turn_time: TurnTime = None,
+    clock_error: ClockError = None,
+    speed_error: SpeedError = None,
     follow: Annotated[bool, typer.Option("--follow", help="With --log: wait for more, and print a line for each bump.")] = False,
     until_localized: Annotated[
         bool, typer.Option("--until-localized", help="With --log: follow each robot only until it is localized.")
@@ -47,8 +38,8 @@ def run(
     if sum(each is not None for each in (stream, file, log)) != 1:
         raise StreamError("give the observations as one of --stream BITS, --file FILE and --log FILE")
     if log is not None:
-        timing = _timing(speed, turn_time, clock_error, speed_error)
-        localized = _run_log(filter_path, log, timing, (restart, world == "closed", until_localized), follow, as_json)
+        times = timing(speed, turn_time, clock_error, speed_error)
+        localized = _run_log(filter_path, log, times, (restart, world == "closed", until_localized), follow, as_json)
         if not localized:
             raise typer.Exit(NEVER_LOCALIZED)
         return
@@ -84,28 +75,14 @@ def run(
         raise typer.Exit(NEVER_LOCALIZED)
 
 
-def _timing(speed: str | None, turn_time: str | None, clock_error: str | None, speed_error: str | None) -> "BumpTiming":
-    from ial.bouncing.bump_timing import BumpTiming
-
-    if speed is None:
-        raise StreamError("a log has times, and only the speed of the robot makes ways of them; give --speed, in metres per second")
-    if turn_time is None or clock_error is None:
-        raise StreamError(
-            "a log has times: say with --turn-time how many seconds a turn takes, and with --clock-error by how many the time driven "
-            "between bumps may be wrong; 0 only if it is so, since wrong ones lead to wrong places"
-        )
-    more = {"--turn-time": turn_time, "--clock-error": clock_error, "--speed-error": speed_error}
-    return BumpTiming(number(speed, "--speed"), *(number(text or "0", option) for option, text in more.items()))
-
-
-def _run_log(filter_path: Path, log: Path, timing: "BumpTiming", choices: tuple[bool, bool, bool], follow: bool, as_json: bool) -> bool:
+def _run_log(filter_path: Path, log: Path, times: "BumpTiming", choices: tuple[bool, bool, bool], follow: bool, as_json: bool) -> bool:
     """Follow the robots of a log, and say what is known about them; return whether each of them was localized."""
     from ial.bouncing.filters.filter_file import read_filter
     from ial.cli.bounce.log_outcome import lines, record
     from ial.cli.bounce.log_run import LogRun
 
     made = read_filter(filter_path)
-    run = LogRun(made, timing, *choices)
+    run = LogRun(made, times, *choices)
     if follow:
         run.follow(log, as_json)
     else:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from ial.cli.bounce.observed import StreamBits, StreamFile, observations
+from ial.cli.bounce.observed import ClockError, LogFile, Speed, SpeedError, StreamBits, StreamFile, TurnTime, observations, timing
 from ial.cli.bounce.options import (
     Angle,
     Cell,
@@ -28,11 +28,15 @@ from ial.cli.shell.terminal import counting, say, shown
 from ial.errors import ConfigError, StreamError
 
 if TYPE_CHECKING:
+    from ial.bouncing.bump_timing import BumpTiming
     from ial.bouncing.filters.bounce_filter import BounceFilter
-    from ial.bouncing.filters.filter_file import Filter
     from ial.bouncing.filters.piece_filter import PieceFilter
+    from ial.bouncing.rays.piece_model import PieceSet
+    from ial.bouncing.rays.real_robot import RealPose
     from ial.maps.polygons.environment import Environment
     from ial.maps.polygons.raster import Raster
+
+_TIMES = "--speed, --turn-time, --clock-error, --speed-error"
 
 
 def show(
@@ -50,6 +54,11 @@ def show(
     ] = "cycles",
     stream: StreamBits = None,
     file: StreamFile = None,
+    log: LogFile = None,
+    speed: Speed = None,
+    turn_time: TurnTime = None,
+    clock_error: ClockError = None,
+    speed_error: SpeedError = None,
     truth: Annotated[
         Path | None, typer.Option(metavar="CSV", help="With --what sets: where the robot was, as `ial bounce simulate` writes it.")
     ] = None,
@@ -71,28 +80,42 @@ def show(
     from ial.bouncing.filters.building import all_free_cells, build_filter
     from ial.bouncing.filters.filter_file import read_filter
     from ial.bouncing.filters.piece_filter import PieceFilter
+    from ial.bouncing.stream_file import read_truth
     from ial.cli.bounce.surroundings import Surroundings
 
-    read_too = [each for each in (file, truth) if each is not None]
+    read_too = [each for each in (file, log, truth) if each is not None]
     check_outputs([out], [*paths, *read_too], overwrite)
     if out.suffix.lower() != ".png":
         raise ConfigError(f"{out}: the picture is a PNG; give a name that ends in .png")
     if late := next((path for path in paths[1:] if path.suffix == ".npz"), None):
         raise ConfigError(f"{late}: a filter comes first, and its environments after it: {late.name} ENV …")
+    times = speed, turn_time, clock_error, speed_error
     if what == "sets":
-        if (stream is None) == (file is None):
-            raise StreamError("--what sets shows what observations leave; give them as one of --stream BITS and --file FILE")
+        if sum(each is not None for each in (stream, file, log)) != 1:
+            raise StreamError("--what sets shows what observations leave; give them as one of --stream BITS, --file FILE and --log FILE")
         if paths[0].suffix != ".npz":
             raise ConfigError(f"{paths[0]}: --what sets needs a filter; build one with --rays or an error, and give FILTER ENV")
         read = read_filter(paths[0])
         surroundings = Surroundings.read(paths[1:], resolution, simplify, read.radius_m if isinstance(read, PieceFilter) else Fraction(0))
-        _draw_sets(out, read, surroundings.environments, stream, file, truth)
+        if not isinstance(read, PieceFilter):
+            raise ConfigError("a filter of cells has no pieces of walls; build one with --rays or an error")
+        poses = None if truth is None else read_truth(truth)
+        if log is not None:
+            sets = sets_of_log(read, log, timing(speed, turn_time, clock_error, speed_error))
+        else:
+            if any(given is not None for given in times):
+                raise StreamError(f"{_TIMES} are for a --log with times; leave them out")
+            observed = observations(stream, file)
+            if poses is not None and [pose.observation for pose in poses] != observed:
+                raise StreamError("the true poses are those of other observations; give the stream and the truth of one run")
+            sets = read.after_bumps(observed)
+        _draw_sets(out, read, surroundings.environments, sets, poses)
         for line in surroundings.lines():
             say(line)
         say(f"picture in {shown(out)}")
         return
-    if stream is not None or read_too:
-        raise ConfigError("--stream, --file and --truth are for --what sets; leave them out")
+    if stream is not None or read_too or any(given is not None for given in times):
+        raise ConfigError(f"--stream, --file, --log, {_TIMES} and --truth are for --what sets; leave them out")
     if paths[0].suffix == ".npz":
         read = read_filter(paths[0])
         if not isinstance(read, BounceFilter):
@@ -118,21 +141,34 @@ def show(
     say(f"picture in {shown(out)}")
 
 
+def sets_of_log(made: "PieceFilter", log: Path, times: "BumpTiming") -> "list[PieceSet]":
+    """Return what is left after each bump of the one robot of a log."""
+    from ial.bouncing.filters.bump_tracker import BumpTracker, legs_of
+    from ial.cli.bounce.log_run import log_events
+
+    tracker, sets, robots = BumpTracker(legs_of(made, times)), [], set()
+    with log_events(log) as events:
+        for event in events:
+            robots.add(event.robot)
+            if len(robots) > 1:
+                raise StreamError(f"{event.where}: the log is of several robots, {' and '.join(sorted(robots))}; give the lines of one")
+            tracker.take(event)
+            if event.kind == "bump":
+                sets.append(tracker.states)
+    return sets
+
+
 def _draw_sets(
-    out: Path, made: "Filter", loaded: "dict[str, Environment]", stream: str | None, file: Path | None, truth: Path | None
+    out: Path, made: "PieceFilter", loaded: "dict[str, Environment]", sets: "list[PieceSet]", truth: "list[RealPose] | None"
 ) -> None:
-    """Draw what a stream leaves of a filter of pieces of walls."""
-    from ial.bouncing.filters.piece_filter import PieceFilter
-    from ial.bouncing.stream_file import read_truth
+    """Draw what bumps leave of a filter of pieces of walls."""
     from ial.results.bouncing.set_picture import draw_sets
 
-    if not isinstance(made, PieceFilter):
-        raise ConfigError("a filter of cells has no pieces of walls; build one with --rays or an error")
     if len(loaded) != 1:
         raise ConfigError("a filter holds no polygons; give the one environment it was built from after it: FILTER ENV")
     (environment,) = loaded.values()
     _check_built_from(made, environment)
-    draw_sets(out, made, environment, observations(stream, file), None if truth is None else read_truth(truth))
+    draw_sets(out, made, environment, sets, truth)
 
 
 def _check_built_from(made: "PieceFilter", environment: "Environment") -> None:

@@ -33,7 +33,7 @@ def moments(bumps: int) -> list[int]:
 
 
 def draw_sets(
-    path: Path, made: PieceFilter, environment: Environment, observations: Sequence[int], truth: Sequence[RealPose] | None = None
+    path: Path, made: PieceFilter, environment: Environment, sets: Sequence[PieceSet], truth: Sequence[RealPose] | None = None
 ) -> None:
     """Write a picture with a panel for each moment.
 
@@ -45,28 +45,26 @@ def draw_sets(
         The filter.
     environment
         The environment it was built from.
-    observations
-        What the robot has observed.
+    sets
+        What is left after each bump of the robot.
     truth
         Where it was after each observation, if that is known.
 
     Raises
     ------
     StreamError
-        If there is no bump among the observations, or the truth is that of others.
+        If there is no bump, or the truth has another number of them.
     OutputError
         If the picture cannot be written.
     """
-    set_page(made, environment, observations, truth).write(path)
+    set_page(made, environment, sets, truth).write(path)
 
 
-def set_page(
-    made: PieceFilter, environment: Environment, observations: Sequence[int], truth: Sequence[RealPose] | None = None
-) -> BouncePage:
+def set_page(made: PieceFilter, environment: Environment, sets: Sequence[PieceSet], truth: Sequence[RealPose] | None = None) -> BouncePage:
     """Return the picture as a page, see `draw_sets`."""
-    if truth is not None and [pose.observation for pose in truth] != list(observations):
-        raise StreamError("the true poses are those of other observations; give the stream and the truth of one run")
-    sets = _after_bumps(made, observations)
+    bumped = [at for at, pose in enumerate(truth or ()) if pose.observation]
+    if truth is not None and len(bumped) != len(sets):
+        raise StreamError(f"the true poses have {len(bumped)} bumps, and the robot observed {len(sets)}; give the truth of the same run")
     if not sets:
         raise StreamError("the robot has not bumped yet, so it can be anywhere; give observations with a bump")
     shown = moments(len(sets))
@@ -80,24 +78,13 @@ def set_page(
     remark += "wedges: headings after the turn, where there are few; paler: fewer headings; axes in m"
     page = BouncePage(len(shown), (y1 - y0) / (x1 - x0), f"{made.name[:70]}: what is left after {len(sets)} bumps", remark, keys)
     for axes, bump in zip(page.panels, shown, strict=True):
-        at, states = sets[bump - 1]
+        states = sets[bump - 1]
         _draw_ground(axes, environment)
         _draw_pieces(axes, made, states)
         if truth is not None:
-            _draw_truth(axes, truth[: at + 1], float(made.radius_m))
+            _draw_truth(axes, truth[: bumped[bump - 1] + 1], float(made.radius_m))
         axes.set_title(f"bump {bump}: {_words(made, states)}", loc="left", fontsize=8.5)
     return page
-
-
-def _after_bumps(made: PieceFilter, observations: Sequence[int]) -> list[tuple[int, PieceSet]]:
-    """Return for each bump which observation it is, from 0 on, and the set after it."""
-    model, sets = made.model, []
-    states = model.universe()
-    for at, observation in enumerate(observations):
-        states = model.step(states, None, observation)
-        if observation:
-            sets.append((at, states))
-    return sets
 
 
 def _words(made: PieceFilter, states: PieceSet) -> str:

@@ -12,12 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ial.contractors.margins import ROUNDINGS
 from ial.maps.polygons.exact.rational import Rational, rational
 from ial.maps.polygons.polygon import ExactPoint, Polygon
-
-_DOUBTFUL = 1e-11
-"""Of the size of the polygon: doubles decide on which side of a ray a corner is, and which crossing comes first, only beyond this. What
-they round off is below 20 roundings of 1.1e-16 each."""
 
 _LEAST, _MOST = 2.0**-500, 2.0**500  # of a component of a direction that a double holds with all its digits, and its square nearly
 
@@ -75,7 +72,9 @@ class Shooter:
         self.edges = [(bx - ax, by - ay) for (ax, ay), (bx, by) in zip(self.corners, (self.corners[to] for to in self.after), strict=True)]
         low_x, low_y, high_x, high_y = (rational(each) for each in polygon.bounds)
         self._middle = (low_x + high_x) / 2, (low_y + high_y) / 2
-        self._scale = float(max(high_x - low_x, high_y - low_y))
+        # How far a corner is aside and ahead is a sum of two products, each of a part of 1 and of at most the size of the polygon; what
+        # `_first` makes of them has terms of at most four times the size.
+        self._doubt = 8.0 * ROUNDINGS * float(max(high_x - low_x, high_y - low_y))
         mx, my = self._middle
         self._x = np.array([float(x - mx) for x, _ in self.corners])
         self._y = np.array([float(y - my) for _, y in self.corners])
@@ -125,7 +124,7 @@ class Shooter:
         aside, ahead = dx * y - dy * x, dx * x + dy * y
         sides = np.sign(aside).astype(np.int8)
         on_line: list[list[int]] = [[] for _ in starts]
-        for ray, corner in np.argwhere(np.abs(aside) < _DOUBTFUL * self._scale).tolist():
+        for ray, corner in np.argwhere(np.abs(aside) < self._doubt).tolist():
             sides[ray, corner] = self.side(corner, starts[ray], directions[ray])
             if sides[ray, corner] == 0:
                 on_line[ray].append(corner)
@@ -160,7 +159,7 @@ class Shooter:
         after = self._next[edge]
         across = np.abs(aside[ray, edge]) + np.abs(aside[ray, after])
         one, other = ahead[ray, edge], ahead[ray, after]
-        doubt = _DOUBTFUL * self._scale
+        doubt = self._doubt
         part = np.abs(aside[ray, edge]) / np.maximum(across, doubt)
         middle, reach = one + part * (other - one), np.abs(other - one) * np.minimum(2.0 * doubt / np.maximum(across, doubt), 1.0) + doubt
         least, most = np.maximum(middle - reach, np.minimum(one, other) - doubt), np.minimum(middle + reach, np.maximum(one, other) + doubt)

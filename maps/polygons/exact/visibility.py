@@ -6,11 +6,9 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from ial.contractors.margins import ROUNDINGS
 from ial.maps.polygons.exact.rational import Rational
 from ial.maps.polygons.exact.shooter import Shooter
-
-_CERTAIN = 1e-11
-"""Of the square of the size of the polygon: doubles decide that a wall hides a corner only where every product is beyond this."""
 
 FloatArray = npt.NDArray[np.float64]
 Place = Sequence[Rational]
@@ -107,7 +105,7 @@ class Visibility:
         turns = np.array(self.turns)
         to = self._corners[turns] - point
         begin, end = self._corners - point, self._ends - point
-        certain = _CERTAIN * self._scale**2
+        certain = 16.0 * ROUNDINGS * self._scale**2  # each product is of two numbers of at most twice the scale, rounded a few times
         one = to[:, :1] * begin[:, 1] - to[:, 1:] * begin[:, 0]  # on which side of the line of sight a wall begins
         other = to[:, :1] * end[:, 1] - to[:, 1:] * end[:, 0]
         way = end - begin

@@ -31,7 +31,7 @@ def test_a_robot_of_which_something_is_known_is_never_lost_and_known_earlier(wor
     for radius, bounds in ((Fraction(0), NONE), (Fraction(0), SOME), (Fraction(3, 10), SOME)):
         made = PieceMap.of(TEN_WORLDS[world], ANGLE, STEP, bounds, Fraction(1, 2), 36, radius)
         legs = Legs(made.walls, ANGLE, STEP, bounds)
-        for seed in range(25):
+        for seed in range(10):
             robot = RealRobot(TEN_WORLDS[world], ANGLE, STEP, radius, bounds, seed)
             model = PieceModel(made, FirstBumps.of(made, legs, some_start(robot, chooser)))
             states = model.universe()

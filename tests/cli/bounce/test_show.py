@@ -1,9 +1,15 @@
+import json
 from collections.abc import Callable
+from fractions import Fraction
 from pathlib import Path
 
 import cv2
 import pytest
 
+from ial.bouncing.bump_timing import BumpTiming
+from ial.bouncing.filters.filter_file import read_filter
+from ial.bouncing.filters.piece_filter import PieceFilter
+from ial.cli.bounce.show import sets_of_log
 from tests.cli.bounce.hall import Cli
 
 
@@ -72,10 +78,34 @@ def test_what_a_stream_leaves_is_drawn_and_the_truth_if_it_is_given(ial: Cli, ha
     assert Path("truth.png").read_bytes() != Path("file.png").read_bytes()
 
 
+@pytest.mark.slow
+def test_what_a_log_leaves_is_drawn_and_is_what_its_run_tells(ial: Cli, hall: Path, sets: Path, refused: Callable[..., str]) -> None:
+    built = ("bounce", "build", hall, "--angle", 100, "--turn-error", 2, "--count-error", 1, "--out", "log.npz")
+    assert ial(*built).exit_code == 0
+    clock = ("--speed", "0.3", "--turn-time", 1, "--clock-error", "0.05")
+    drive = ("bounce", "simulate", hall, "--angle", 100, "--turn-error", 2, "--step", "1/4", "--steps", 200, "--truth", "where.csv")
+    assert ial(*drive, *clock, "--log", "log.csv", "--out", "stream.txt").exit_code == 0
+    told = json.loads(ial("bounce", "run", "log.npz", "--log", "log.csv", *clock, "--json").stdout)["robots"][0]
+    shown = ("bounce", "show", "log.npz", hall, "--what", "sets", "--log", "log.csv")
+    assert ial(*shown, *clock, "--truth", "where.csv", "--out", "log.png").exit_code == 0
+    times = BumpTiming(Fraction(3, 10), Fraction(1), Fraction(1, 20))
+    made = read_filter(Path("log.npz"))
+    assert isinstance(made, PieceFilter)
+    left = sets_of_log(made, Path("log.csv"), times)
+    assert (len(left), len(left[-1])) == (told["bumps"], told["pieces"])
+    assert "give --speed" in refused(*shown, "--out", "a.png")
+    assert "are for a --log with times" in refused(*shown[:-2], "--file", "stream.txt", *clock, "--out", "a.png")
+    lines = Path("log.csv").read_text().splitlines()
+    Path("two.csv").write_text("".join(f"{line},{('robot', 'a', 'b')[min(at, 2)]}\n" for at, line in enumerate(lines)))
+    assert "the log is of several robots, a and b" in refused(*shown[:-1], "two.csv", *clock, "--out", "a.png")
+
+
 def test_sets_that_cannot_be_shown(ial: Cli, hall: Path, sets: Path, built: Path, refused: Callable[..., str]) -> None:
     out = ("--what", "sets", "--out", "a.png")
-    assert "one of --stream BITS and --file FILE" in refused("bounce", "show", sets, hall, *out)
-    assert "one of --stream BITS and --file FILE" in refused("bounce", "show", sets, hall, *out, "--stream", "1", "--file", "s.txt")
+    assert "one of --stream BITS, --file FILE and --log FILE" in refused("bounce", "show", sets, hall, *out)
+    assert "one of --stream BITS, --file FILE and --log FILE" in refused(
+        "bounce", "show", sets, hall, *out, "--stream", "1", "--file", "s.txt"
+    )
     assert "--what sets needs a filter" in refused("bounce", "show", hall, *out, "--stream", "1")
     assert "a filter of cells has no pieces of walls" in refused("bounce", "show", built, hall, *out, "--stream", "1")
     assert "give the one environment it was built from" in refused("bounce", "show", sets, *out, "--stream", "1")

@@ -51,7 +51,7 @@ def test_moments_double_and_end_with_the_last_bump() -> None:
 @pytest.mark.parametrize("radius", ["0", "1/5"])
 def test_each_panel_shows_the_parts_that_are_left_and_the_true_robot_on_one_of_them(radius: str) -> None:
     filter_, poses = made(Fraction(radius)), run(Fraction(radius))
-    page = set_page(filter_, HALL, [pose.observation for pose in poses], poses)
+    page = set_page(filter_, HALL, filter_.after_bumps(pose.observation for pose in poses), poses)
     bumps = [at for at, pose in enumerate(poses) if pose.observation]
     assert len(page.panels) == len(moments(len(bumps))) > 4
     model, count = filter_.model, int(filter_.map.parts.sum())
@@ -79,22 +79,25 @@ def test_each_panel_shows_the_parts_that_are_left_and_the_true_robot_on_one_of_t
 
 
 def test_without_a_truth_there_is_none_in_the_picture(tmp_path: Path) -> None:
-    observations = [pose.observation for pose in run(Fraction(0))]
-    draw_sets(tmp_path / "a.png", made(Fraction(0)), HALL, observations)
+    filter_, poses = made(Fraction(0)), run(Fraction(0))
+    sets = filter_.after_bumps(pose.observation for pose in poses)
+    draw_sets(tmp_path / "a.png", filter_, HALL, sets)
     assert pixels(read(tmp_path / "a.png"), TRUTH) == 0
     assert pixels(read(tmp_path / "a.png"), "#4a5058") > 1000  # outside of the environment
-    draw_sets(tmp_path / "a.png", made(Fraction(0)), HALL, observations, run(Fraction(0)))
+    draw_sets(tmp_path / "a.png", filter_, HALL, sets, poses)
     assert pixels(read(tmp_path / "a.png"), TRUTH) > 50
 
 
 def test_a_robot_that_is_elsewhere() -> None:
-    page = set_page(made(Fraction(0)), HALL, [1, 0, 0, *[0] * 60, 1])
+    filter_ = made(Fraction(0))
+    page = set_page(filter_, HALL, filter_.after_bumps([1, 0, 0, *[0] * 60, 1]))
     assert page.panels[-1].get_title(loc="left") == "bump 2: rejected"
     assert len(drawn_parts(page.panels[-1])) == 0
 
 
 def test_what_cannot_be_drawn() -> None:
     with pytest.raises(StreamError, match="has not bumped yet"):
-        set_page(made(Fraction(0)), HALL, [0, 0])
-    with pytest.raises(StreamError, match="those of other observations"):
-        set_page(made(Fraction(0)), HALL, [0, 1], run(Fraction(0)))
+        set_page(made(Fraction(0)), HALL, [])
+    filter_ = made(Fraction(0))
+    with pytest.raises(StreamError, match="and the robot observed 1; give the truth of the same run"):
+        set_page(filter_, HALL, filter_.after_bumps([0, 1]), run(Fraction(0)))
