@@ -32,7 +32,11 @@ def write_sequence(sequence: Sequence, path: str | Path) -> None:
     OutputError
         If the file cannot be written.
     """
-    text = json.dumps(_record(sequence), indent=1)
+    record = _record(sequence)
+    steps = ",\n  ".join(json.dumps(each) for each in record.pop("steps"))
+    lines = [f"{json.dumps(key)}: {json.dumps(value)}" for key, value in record.items()]
+    lines.insert(-1, f'"steps": [\n  {steps}\n ]')
+    text = "{\n " + ",\n ".join(lines) + "\n}"
     with whole_files(path, what="the sequence") as (lent,):
         lent.write_text(text + "\n", encoding="utf-8")
 

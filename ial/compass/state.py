@@ -47,15 +47,13 @@ class InformationState:
     def of(cls, shooter: Shooter, pieces: Iterable[Piece], points: Iterable[BoundaryPoint]) -> "InformationState":
         """Return the state that pieces and points make, in whatever order they come and however they overlap.
 
-        Pieces that overlap are merged, two that meet in a point of the state are joined, and points that a piece covers are dropped. Where
-        two rings of the polygon touch, a piece does not drop a point that is a corner of the other ring: the state is the same set then,
-        with a point said twice.
+        Pieces that overlap are merged, two that meet in a point of the state are joined, and points that a piece covers are dropped.
         """
         places = {point.place: point for point in points}
         on_edges: dict[int, list[BoundaryPoint]] = {}
         for point in places.values():
-            if not point.corner:
-                on_edges.setdefault(point.edge, []).append(point)
+            for edge in shooter.touched.get(point.edge, ()) if point.corner else (point.edge,):
+                on_edges.setdefault(edge, []).append(point)
         by_edge: dict[int, list[tuple[Rational, Rational]]] = {}
         for piece in pieces:
             by_edge.setdefault(piece.edge, []).append((piece.low, piece.high))
@@ -65,7 +63,7 @@ class InformationState:
             spans = _merged(sorted(by_edge[edge]), inside)
             for part, place in inside.items():
                 if any(low < part < high for low, high in spans):
-                    del places[place]
+                    places.pop(place, None)  # two walls may hold it, where rings touch
             merged += [Piece(edge, low, high) for low, high in spans]
         return cls(tuple(merged), tuple(sorted(places.values(), key=lambda point: (point.edge, shooter.part(point, point.edge)))))
 

@@ -109,7 +109,9 @@ class Strips:
         numbers = np.arange(strips)[:, None]
         here = (np.minimum(begin, end) <= numbers) & (numbers < np.maximum(begin, end))
         way = np.where(here, way, np.inf)
-        error = np.where(flat, np.inf, ROUNDINGS * (1.0 + np.abs(slope)))  # see below
+        # Levels and ways ahead are from 0 to 1, each rounded once. A rise errs by three roundings, and so does the slope by as much as a
+        # part of the rise; a point of the wall is at most the rise away from its end.
+        error = np.where(flat, np.inf, ROUNDINGS * (1.0 + np.abs(slope)))
         order = np.argsort(way, axis=1, kind="stable")
         held = here.sum(axis=1)
         sorted_way, sorted_error = np.take_along_axis(way, order, 1), error[order]

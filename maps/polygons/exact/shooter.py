@@ -8,6 +8,7 @@ walls that lie on one line, and leaving a reflex corner all follow from these tw
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -85,6 +86,18 @@ class Shooter:
 
     def __len__(self) -> int:
         return len(self.corners)
+
+    @cached_property
+    def touched(self) -> dict[int, list[int]]:
+        """For each corner of a ring that touches another ring inside of its edges: which edges. Other corners are left out."""
+        if not self.polygon.holes:
+            return {}
+        found: dict[int, list[int]] = {}
+        for corner, (x, y) in enumerate(self.corners):
+            for edge, ((ax, ay), (ex, ey)) in enumerate(zip(self.corners, self.edges, strict=True)):
+                if ex * (y - ay) == ey * (x - ax) and 0 < ex * (x - ax) + ey * (y - ay) < ex * ex + ey * ey:
+                    found.setdefault(corner, []).append(edge)
+        return found
 
     def corner(self, number: int) -> BoundaryPoint:
         """Return a corner, which has the number of the edge that begins there."""
