@@ -14,5 +14,5 @@ def example_polygon() -> Polygon:
         ((17, 6), (17, 7), (22, 7), (21, 10), (15, 9), (15, 7), (16, 7), (16, 6)),
         ((7, 6), (7, 7), (12, 7), (12, 10), (5, 9), (4, 7), (6, 7), (6, 6)),
     )
-    corners = ((0, 4), *(corner for room in below for corner in room), (24, 4), (25, 6), *(corner for room in above for corner in room), (0, 6))
-    return Polygon(corners)  # type: ignore[arg-type]
+    lower, upper = (tuple(corner for room in rooms for corner in room) for rooms in (below, above))
+    return Polygon(((0, 4), *lower, (24, 4), (25, 6), *upper, (0, 6)))  # type: ignore[arg-type]

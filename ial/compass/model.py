@@ -9,10 +9,10 @@ from ial.membership.model import Model
 
 
 class CompassModel(Model[InformationState, Direction, None]):
-    """Sets of places, exactly; a motion is a direction, and there is no reading: only motions make a set smaller, as they are not injective.
+    """Sets of places, exactly; a motion is a direction, and there is no reading.
 
-    So a set is never empty, and nothing is ever rejected. The first set is the boundary, and stands for the whole polygon: the first
-    motion leads from both to the same places, see `Sequence`.
+    Only motions make a set smaller: two places can lead to one. So a set is never empty, and nothing is ever rejected. The first set is
+    the boundary, and stands for the whole polygon: the first motion leads from both to the same places, see `Sequence`.
 
     Parameters
     ----------
@@ -57,9 +57,7 @@ class CompassModel(Model[InformationState, Direction, None]):
 
     def unite(self, allowed: InformationState, predicted: InformationState) -> InformationState:
         """Return the union."""
-        return InformationState.of(
-            self._transition.shooter, (*allowed.pieces, *predicted.pieces), (*allowed.points, *predicted.points)
-        )
+        return InformationState.of(self._transition.shooter, (*allowed.pieces, *predicted.pieces), (*allowed.points, *predicted.points))
 
     def empty(self, states: InformationState) -> bool:
         """Return whether no place is left."""

@@ -50,7 +50,8 @@ def localizing_sequence(
     directions: list[Direction] = []
     sizes = [state.sizes]
     for phase in (SegmentPhase(transition, order, distances), PointPhase(transition, order, paths, distances)):
-        for direction, state in phase.run(state):
+        for direction, after in phase.run(state):
+            state = after
             directions.append(direction)
             sizes.append(state.sizes)
             if progress is not None:

@@ -27,7 +27,7 @@ def primitive(x: Any, y: Any) -> Direction:
         If one is a float, which has been rounded already, or both are 0.
     """
     exact = _exact(x), _exact(y)
-    if exact == (0, 0):
+    if not any(exact):
         raise ConfigError("a direction is (0, 0), which leads nowhere; give a vector that is longer than 0")
     scale = math.lcm(exact[0].denominator, exact[1].denominator)
     whole = int(exact[0] * scale), int(exact[1] * scale)
@@ -47,7 +47,7 @@ def reverse(direction: Direction) -> Direction:
 
 def _exact(number: Any) -> Fraction:
     try:
-        if isinstance(number, AnyRational) and not isinstance(number, bool):
+        if isinstance(number, AnyRational):
             return Fraction(number)
         return Fraction(int(number.numerator), int(number.denominator))  # of gmpy2
     except (AttributeError, TypeError):

@@ -112,7 +112,7 @@ class SegmentPhase:
     def _cost(self, state: InformationState) -> tuple[float, float]:
         """Return how much is left, and how it lies, in the same unit."""
         length = sum(float(piece.high - piece.low) * self._lengths[piece.edge] for piece in state.pieces)
-        walls = [each.edge for each in (*state.pieces, *state.points)]
+        walls = [*(piece.edge for piece in state.pieces), *(point.edge for point in state.points)]
         lies = _POINT_COST * len(state.points) + _SPAN_COST * float(self._distances.spans(np.array([walls]))[0])
         return length / self._around + _PIECE_COST * len(state.pieces), lies
 

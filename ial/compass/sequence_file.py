@@ -91,10 +91,12 @@ def _sequence(content: Any) -> Sequence:
         raise SequenceError(f"the sequence has version {content.get('version')!r}, and this program reads {_VERSION}; plan it again")
     polygons = parse_polygon_json(json.dumps({"polygons": [content.get("polygon")]}))
     steps, boundary, end = content.get("steps"), content.get("boundary"), content.get("end")
-    if not isinstance(steps, list) or not all(isinstance(each, dict) for each in (*steps, boundary, end)):
+    if not isinstance(steps, list) or not isinstance(boundary, dict) or not isinstance(end, dict):
         raise SequenceError('the sequence has no list "steps", or no "boundary", or no "end"; plan it again')
     sizes, directions = [_sizes(boundary, 0)], []
     for number, step in enumerate(steps, 1):
+        if not isinstance(step, dict):
+            raise SequenceError(f"step {number}: this is no step; plan the sequence again")
         directions.append(_direction(step, number))
         sizes.append(_sizes(step, number))
     read = Sequence(polygons[0], tuple(directions), tuple(sizes), _place(end))

@@ -2,7 +2,6 @@
 
 from bisect import bisect_left
 from collections.abc import Sequence
-from functools import cmp_to_key
 
 import numpy as np
 import numpy.typing as npt
@@ -134,4 +133,4 @@ class Strips:
         for edge in edges:
             begin, end = self._along[edge], self._along[self.shooter.after[edge]]
             ways[edge] = begin + self.part(edge, middle) * (end - begin)
-        return sorted(edges, key=cmp_to_key(lambda one, other: (ways[one] > ways[other]) - (ways[one] < ways[other])))
+        return sorted(edges, key=ways.__getitem__)

@@ -14,7 +14,7 @@ EnvironmentPath = Annotated[
     Path | None,
     typer.Argument(
         metavar="[ENV]",
-        help="A polygon (.json, .wkt, .geojson, .svg), a map.yaml, or a picture (.png, .pgm, .jpg, .bmp); an embedded building if left out.",
+        help="A polygon (.json, .wkt, .geojson, .svg), a map.yaml, or a picture (.png, .pgm, .jpg, .bmp); an embedded one if left out.",
     ),
 ]
 

@@ -14,9 +14,7 @@ from ial.errors import SequenceError
 SequencePath = Annotated[Path, typer.Argument(metavar="SEQUENCE", help="What `ial compass plan` has written.")]
 
 
-def verify(
-    sequence_path: SequencePath, environment: EnvironmentPath = None, resolution: Resolution = None, as_json: Json = False
-) -> None:
+def verify(sequence_path: SequencePath, environment: EnvironmentPath = None, resolution: Resolution = None, as_json: Json = False) -> None:
     """Prove that a sequence localizes, by exact code that shares nothing with the planner; or say at which step it does not.
 
     With ENV, prove that it is a sequence of that environment, too.

@@ -166,7 +166,7 @@ class Shooter:
             raise AssertionError("a ray that starts in a bounded polygon ends")
         return best
 
-    def _first(self, sides: npt.NDArray[np.int8], aside: FloatArray, ahead: FloatArray) -> list[list[int]]:
+    def _first(self, sides: npt.NDArray[np.int8], aside: FloatArray, ahead: FloatArray) -> list[tuple[int, int]]:
         """Return pairs of a ray and an edge that may be the first one it crosses, by doubles: how far corners are aside and ahead."""
         ray, edge = np.nonzero((sides < 0) & (sides[:, self._next] > 0))
         after = self._next[edge]
@@ -180,7 +180,7 @@ class Shooter:
         sure = least >= 0.0
         np.minimum.at(nearest, ray[sure], most[sure])
         kept = (most >= 0.0) & (least <= nearest[ray])
-        return np.stack([ray[kept], edge[kept]], axis=1).tolist()
+        return list(zip(ray[kept].tolist(), edge[kept].tolist(), strict=True))
 
     def is_open(self, corner: int, ux: int | Rational, uy: int | Rational) -> bool:
         """Return whether a point at a corner can leave it in a direction, along one of its walls included."""

@@ -52,9 +52,7 @@ class Visibility:
     def turns(self) -> list[int]:
         """The corners at which a shortest path can turn: those with more than half a turn of free space."""
         edges, before = self.shooter.edges, self.shooter.before
-        return [
-            corner for corner, (bx, by) in enumerate(edges) if edges[before[corner]][0] * by - edges[before[corner]][1] * bx < 0
-        ]
+        return [corner for corner, (bx, by) in enumerate(edges) if edges[before[corner]][0] * by - edges[before[corner]][1] * bx < 0]
 
     def seen_turns(self, place: Place) -> list[int]:
         """Return which corners of `turns` a point sees."""
@@ -63,15 +61,16 @@ class Visibility:
         return [corner for corner, each in zip(corners, seen, strict=True) if each]
 
     def is_bitangent(self, one: int, other: int) -> bool:
-        """Return whether two corners see each other, and the line through them touches the walls at both without entering them.
+        """Return whether two corners see each other, and a line of sight through them goes on behind both.
 
         Such a line is a spurious edge of two visibility polygons at once, in opposite directions (O'Kane 2005, section 3.2.2).
         """
-        (ax, ay), (bx, by) = self.shooter.corners[one], self.shooter.corners[other]
-        ahead = bx - ax, by - ay
-        if one == other or not all(self._touches(corner, *ahead) for corner in (one, other)):
+        if one == other:
             return False
-        return self.sees((ax, ay), (bx, by))
+        begin, end = self.shooter.corners[one], self.shooter.corners[other]
+        ahead = end[0] - begin[0], end[1] - begin[1]
+        before, behind = self.shooter.shoot_all([begin, end], [(-ahead[0], -ahead[1]), ahead])
+        return before.place != begin and behind.place != end and self.sees(begin, end)
 
     def bitangents(self) -> Iterator[tuple[int, int]]:
         """Yield the pairs of corners of `turns` that are bitangents, the lesser number first."""
@@ -81,20 +80,13 @@ class Visibility:
     def seen(self, place: Place, others: Sequence[Place]) -> list[bool]:
         """Return for each of some points whether a point sees it, as `sees` does; faster for many of them."""
         ways = [(x - place[0], y - place[1]) for x, y in others]
-        apart = [way for way in ways if way != (0, 0)]
+        apart = [way for way in ways if any(way)]
         ends = iter(self.shooter.shoot_all([place] * len(apart), apart))
         seen = []
         for (x, y), (dx, dy) in zip(others, ways, strict=True):
             end = next(ends) if dx or dy else None
             seen.append(end is None or (end.x - x) * dx + (end.y - y) * dy >= 0)
         return seen
-
-    def _touches(self, corner: int, ux: Rational, uy: Rational) -> bool:
-        """Return whether a line through a corner goes on in free space on both sides, with both walls on one side of it."""
-        shooter = self.shooter
-        (ax, ay), (bx, by) = shooter.edges[shooter.before[corner]], shooter.edges[corner]
-        behind, ahead = -(ux * ay - uy * ax), ux * by - uy * bx  # on which side the two walls of the corner lie
-        return behind * ahead >= 0 and shooter.is_open(corner, ux, uy) and shooter.is_open(corner, -ux, -uy)
 
     def _doubtful(self, place: Place) -> list[int]:
         """Return the corners of `turns` that no wall hides for certain, by doubles."""
