@@ -52,6 +52,7 @@ def check(polygon: Polygon, sequence: Sequence, inside: int) -> None:
         assert follow(polygon, start, sequence.directions)[-1] == sequence.end
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", ["greedy", "paper"])
 @pytest.mark.parametrize("name", KNOWN)
 def test_every_start_ends_in_one_point(name: str, order: Order) -> None:
@@ -72,6 +73,7 @@ def test_holes(polygon: Polygon) -> None:
     check(polygon, localizing_sequence(polygon), 12)
 
 
+@pytest.mark.slow
 def test_a_comb_takes_as_many_motions_however_many_branches_it_has() -> None:
     """The thesis' regular environment takes 5 (table 3.1), for it shrinks all branches at once."""
     assert len({len(localizing_sequence(comb(branches))) for branches in (2, 4, 8)}) == 1
@@ -88,6 +90,7 @@ def test_progress_and_turned_rings() -> None:
     assert localizing_sequence(clockwise) == sequence
 
 
+@pytest.mark.slow
 def test_the_same_plan_every_time() -> None:
     assert localizing_sequence(random_polygon(20, 2)) == localizing_sequence(random_polygon(20, 2))
 
