@@ -61,7 +61,7 @@ def read_sequence(path: str | Path) -> Sequence:
         raise SequenceError(f"{path}: this is no sequence, since it is not JSON ({error}); write one with `ial compass plan`") from None
     try:
         return _sequence(content)
-    except (SequenceError, MapError) as error:
+    except SequenceError as error:
         raise SequenceError(f"{path}: {error}") from None
 
 
@@ -89,7 +89,10 @@ def _sequence(content: Any) -> Sequence:
         raise SequenceError("this is no localizing sequence; write one with `ial compass plan`")
     if content.get("version") != _VERSION:
         raise SequenceError(f"the sequence has version {content.get('version')!r}, and this program reads {_VERSION}; plan it again")
-    polygons = parse_polygon_json(json.dumps({"polygons": [content.get("polygon")]}))
+    try:
+        polygons = parse_polygon_json(json.dumps({"polygons": [content.get("polygon")]}))
+    except MapError as error:
+        raise SequenceError(f"step 0: {error}") from None
     steps, boundary, end = content.get("steps"), content.get("boundary"), content.get("end")
     if not isinstance(steps, list) or not isinstance(boundary, dict) or not isinstance(end, dict):
         raise SequenceError('the sequence has no list "steps", or no "boundary", or no "end"; plan it again')

@@ -1,6 +1,8 @@
 import json
+import random
 import re
 from collections.abc import Callable
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -91,3 +93,24 @@ def test_what_is_no_file_of_a_sequence(tmp_path: Path) -> None:
             read_sequence(path)
     with pytest.raises(OutputError, match="cannot be written"):
         write_sequence(SEQUENCE, tmp_path / "nowhere" / "s.json")
+
+
+def altered(content: Any, chooser: random.Random) -> None:
+    """Change a direction, a vertex or the end, or leave out a step."""
+    steps = content["steps"]
+    at = chooser.randrange(len(steps))
+    kind = chooser.randrange(4)
+    if kind == 3:
+        del steps[at]
+        return
+    pair = (steps[at]["direction"], chooser.choice(content["polygon"]["outer"]), content["end"]["place"])[kind]
+    which = chooser.randrange(2)
+    pair[which] = str(Fraction(pair[which]) + chooser.choice((-2, -1, 1, 2)))
+
+
+def test_200_altered_files_are_all_refused_at_their_step(path: Path) -> None:
+    chooser = random.Random(6)
+    whole = path.read_text()
+    for _ in range(200):
+        path.write_text(whole)
+        assert re.search(r": step \d+: ", refusal(path, lambda content: altered(content, chooser)))
