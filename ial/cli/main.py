@@ -10,6 +10,7 @@ from ial.cli.bounce import advise, build, calibrate, export, run, search_angle, 
 from ial.cli.bounce import simulate as bounce_simulate
 from ial.cli.compass import plan, verify
 from ial.cli.compass import run as compass_run
+from ial.cli.compass import show as compass_show
 from ial.cli.lidar import bounds, localize, replay, stream, warm, where
 from ial.cli.recordings import convert, info, kidnap, map_info, simulate
 from ial.cli.shell.outcome import exit_status
@@ -59,6 +60,7 @@ app.add_typer(bounce, name="bounce")
 compass.command("plan")(plan.plan)
 compass.command("verify")(verify.verify)
 compass.command("run")(compass_run.run)
+compass.command("show")(compass_show.show)
 app.add_typer(compass, name="compass")
 
 

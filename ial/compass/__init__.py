@@ -6,6 +6,8 @@ Names are loaded when they are first used.
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from ial.compass.bounded_model import BoundedCompassModel as BoundedCompassModel
+    from ial.compass.bounded_state import BoundedState as BoundedState
     from ial.compass.example import example_polygon as example_polygon
     from ial.compass.model import CompassModel as CompassModel
     from ial.compass.planning import localizing_sequence as localizing_sequence
@@ -23,6 +25,8 @@ else:
     __getattr__, __dir__, __all__ = _lazy(
         __name__,
         {
+            "bounded_model": ("BoundedCompassModel",),
+            "bounded_state": ("BoundedState",),
             "example": ("example_polygon",),
             "model": ("CompassModel",),
             "planning": ("localizing_sequence",),

@@ -4,11 +4,10 @@ from typing import Annotated
 
 import typer
 
-from ial.cli.bounce.options import number
+from ial.cli.compass.surroundings import place
 from ial.cli.compass.verify import SequencePath
 from ial.cli.shell.options import Json
 from ial.cli.shell.terminal import say, say_json
-from ial.errors import ConfigError
 
 NEVER_LOCALIZED = 3
 
@@ -23,9 +22,7 @@ def run(
     from ial.compass.sequence_file import read_sequence
 
     sequence = read_sequence(sequence_path)
-    if start.count(",") != 1:
-        raise ConfigError(f"--start is {start!r}; give X,Y in metres")
-    robot = CompassRobot(sequence.polygon, [number(each, "--start") for each in start.split(",")])
+    robot = CompassRobot(sequence.polygon, place(start))
     places = [robot.place, *(robot.drive(*direction) for direction in sequence.directions)]
     localized = robot.place == sequence.end
     if as_json:

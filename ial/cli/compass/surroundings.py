@@ -1,14 +1,14 @@
-"""The environment of a command of `ial compass`: one polygon."""
+"""The environment of a command of `ial compass`, which is one polygon, and places in it."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ial.errors import MapError
+from ial.errors import ConfigError, MapError
 
 if TYPE_CHECKING:
-    from ial.maps.polygons.polygon import Polygon
+    from ial.maps.polygons.polygon import ExactPoint, Polygon
 
 EnvironmentPath = Annotated[
     Path | None,
@@ -44,3 +44,19 @@ def read_polygon(path: Path | None, resolution: str | None) -> "Polygon":
             "one of them"
         )
     return environment.polygons[0]
+
+
+def place(text: str) -> "ExactPoint":
+    """Return the place that an option --start names, in metres.
+
+    Raises
+    ------
+    ConfigError
+        If it is no pair of numbers.
+    """
+    from ial.cli.bounce.options import number
+
+    if text.count(",") != 1:
+        raise ConfigError(f"--start is {text!r}; give X,Y in metres")
+    x, y = (number(each, "--start") for each in text.split(","))
+    return x, y
