@@ -59,9 +59,9 @@ def _draw(axes: Axes, shooter: Shooter, state: InformationState, title: str, hea
         axes.plot([float(end.x) for end in ends], [float(end.y) for end in ends], color=FOUND, linewidth=2.6, zorder=4)
     x, y = [float(point.x) for point in state.points], [float(point.y) for point in state.points]
     axes.plot(x, y, "o", color=PATH, markersize=3.2, zorder=5)
-    axes.set_title(title, fontsize=9, loc="left", pad=3)
+    axes.set_title(title, fontsize=9, loc="left", pad=3, y=1.0)
     if heading_deg is not None:
-        inset = axes.inset_axes((0.86, 1.01, 0.13, 0.13))
+        inset = axes.inset_axes((0.88, 1.0, 0.12, 0.12))
         inset.set_axis_off()
         inset.set_xlim(-1.0, 1.0)
         inset.set_ylim(-1.0, 1.0)

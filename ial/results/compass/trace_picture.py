@@ -1,6 +1,7 @@
 """`draw_traces`: the ways of robots that carry out one sequence from several starts, as in figure 3.7 of O'Kane 2005."""
 
 from collections.abc import Sequence as Several
+from itertools import pairwise
 from pathlib import Path
 
 from matplotlib.lines import Line2D
@@ -45,7 +46,7 @@ def draw_traces(path: Path, sequence: Sequence, starts: Several[ExactPoint], nam
         robot = CompassRobot(sequence.polygon, start)
         places = [robot.place, *(robot.drive(*direction) for direction in sequence.directions)]
         x, y = [float(place[0]) for place in places], [float(place[1]) for place in places]
-        moved = sum(one != other for one, other in zip(places, places[1:], strict=False))
+        moved = sum(one != other for one, other in pairwise(places))
         draw_polygon(axes, sequence.polygon)
         axes.plot(x, y, color=PATH, linewidth=1.1, zorder=4)
         axes.plot(x[:1], y[:1], "o", color=FOUND, markersize=5.5, zorder=6)
