@@ -70,9 +70,8 @@ class InformationState:
     @classmethod
     def boundary(cls, shooter: Shooter) -> "InformationState":
         """Return the state in which nothing is known but that the robot is at a wall: every edge and every corner."""
-        zero, one = rational(0), rational(1)
-        count = len(shooter)
-        return cls(tuple(Piece(edge, zero, one) for edge in range(count)), tuple(shooter.corner(each) for each in range(count)))
+        walls = range(len(shooter))
+        return cls.of(shooter, [Piece(edge, rational(0), rational(1)) for edge in walls], [shooter.corner(each) for each in walls])
 
     @property
     def sizes(self) -> tuple[int, int]:

@@ -90,7 +90,8 @@ def verify(claim: Claim, progress: Callable[[int, int], None] | None = None) -> 
     steps = len(claim.directions)
     if len(claim.sizes) != steps + 1:
         raise SequenceError(f"step {min(steps, len(claim.sizes))}: there are {steps} motions, but {len(claim.sizes) - 1} states after them")
-    places = Places({at: [(Fraction(0), Fraction(1))] for at in range(len(walls))}, {(Fraction(x), Fraction(y)) for (x, y), _ in walls})
+    corners = {(Fraction(x), Fraction(y)) for (x, y), _ in walls}
+    places = _united(walls, {at: [(Fraction(0), Fraction(1))] for at in range(len(walls))}, corners)
     _compare(0, places, claim.sizes[0])
     for step, (direction, sizes) in enumerate(zip(claim.directions, claim.sizes[1:], strict=True), 1):
         if direction == (0, 0):

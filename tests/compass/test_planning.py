@@ -14,7 +14,18 @@ from ial.compass.verifier import follow, stop, verify, whole_walls
 from ial.errors import MapError, SequenceError
 from ial.maps.polygons.polygon import ExactPoint, Polygon
 from tests.maps.polygons.exact.test_shooter import starts
-from tests.maps.polygons.known_polygons import HOLED, L_SHAPE, SPIKES, SQUARE, STRAIGHT_CORNERS, TOUCHING, Z_SHAPE, comb, serpentine
+from tests.maps.polygons.known_polygons import (
+    HOLED,
+    L_SHAPE,
+    SPIKES,
+    SQUARE,
+    STRAIGHT_CORNERS,
+    TOUCHING,
+    TWO_TOUCHING,
+    Z_SHAPE,
+    comb,
+    serpentine,
+)
 from tests.maps.polygons.random_polygons import random_polygon, rectilinear_polygon
 
 KNOWN = {
@@ -68,7 +79,7 @@ def test_many_walls() -> None:
     assert len(greedy) <= 0.8 * len(paper)
 
 
-@pytest.mark.parametrize("polygon", [HOLED, TOUCHING])
+@pytest.mark.parametrize("polygon", [HOLED, TOUCHING, TWO_TOUCHING])
 def test_holes(polygon: Polygon) -> None:
     check(polygon, localizing_sequence(polygon), 12)
 

@@ -15,6 +15,8 @@ Z_SHAPE = _polygon((0, 0), (4, 0), (4, 3), (9, 3), (9, 9), (5, 9), (5, 6), (0, 6
 HOLED = Polygon(((0, 0), (9, 0), (9, 4), (5, 4), (5, 7), (0, 7)), (((2, 2), (2, 4), (3, 4), (3, 2)),))  # type: ignore[arg-type]
 TOUCHING = Polygon(((0, 0), (9, 0), (9, 7), (0, 7)), (((4, 0), (3, 3), (6, 2)),))  # type: ignore[arg-type]
 """Its hole touches the outer ring in one point."""
+TWO_TOUCHING = Polygon(((0, 0), (9, 0), (8, 7), (0, 7)), (((2, 2), (2, 3), (4, 4)), ((4, 4), (5, 6), (6, 3))))  # type: ignore[arg-type]
+"""Its holes touch each other in a corner of both."""
 
 
 def comb(branches: int, irregular: bool = False) -> Polygon:
