@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from ial.errors import PavingError as PavingError
     from ial.errors import RecordingError as RecordingError
     from ial.errors import RoundingModeError as RoundingModeError
+    from ial.errors import SequenceError as SequenceError
     from ial.errors import StreamError as StreamError
     from ial.errors import TrajectoryError as TrajectoryError
     from ial.pose import Pose as Pose
@@ -47,6 +48,7 @@ else:
                 "PavingError",
                 "RecordingError",
                 "RoundingModeError",
+                "SequenceError",
                 "StreamError",
                 "TrajectoryError",
             ),

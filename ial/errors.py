@@ -33,6 +33,10 @@ class FilterError(IalError):
     """A filter that cannot be built, or a file that holds none."""
 
 
+class SequenceError(IalError):
+    """A localizing sequence that was not found, or a file that holds none."""
+
+
 class StreamError(IalError):
     """A stream of observations that cannot be read, or that a closed world cannot produce."""
 
