@@ -1,0 +1,26 @@
+"""A robot with a linear and an angular odometer: localization from the lengths of its drives (O'Kane and LaValle 2007, robot R1).
+
+Names are loaded when they are first used.
+"""
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ial.odometer.command import Command as Command
+    from ial.odometer.configurations import Configurations as Configurations
+    from ial.odometer.model import OdometerModel as OdometerModel
+    from ial.odometer.odometer_bounds import OdometerBounds as OdometerBounds
+    from ial.odometer.robot import OdometerRobot as OdometerRobot
+else:
+    from ial.lazy import lazy as _lazy
+
+    __getattr__, __dir__, __all__ = _lazy(
+        __name__,
+        {
+            "command": ("Command",),
+            "configurations": ("Configurations",),
+            "model": ("OdometerModel",),
+            "odometer_bounds": ("OdometerBounds",),
+            "robot": ("OdometerRobot",),
+        },
+    )
