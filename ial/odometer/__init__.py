@@ -8,6 +8,10 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from ial.odometer.command import Command as Command
     from ial.odometer.configurations import Configurations as Configurations
+    from ial.odometer.hypotheses import Hypothesis as Hypothesis
+    from ial.odometer.localization import Localization as Localization
+    from ial.odometer.localization import Session as Session
+    from ial.odometer.localization import localize as localize
     from ial.odometer.model import OdometerModel as OdometerModel
     from ial.odometer.odometer_bounds import OdometerBounds as OdometerBounds
     from ial.odometer.robot import OdometerRobot as OdometerRobot
@@ -19,6 +23,8 @@ else:
         {
             "command": ("Command",),
             "configurations": ("Configurations",),
+            "hypotheses": ("Hypothesis",),
+            "localization": ("Localization", "Session", "localize"),
             "model": ("OdometerModel",),
             "odometer_bounds": ("OdometerBounds",),
             "robot": ("OdometerRobot",),

@@ -10,6 +10,7 @@ from ial.contractors.kernels import kernel
 from ial.odometer.casting import COLUMNS, cast, free_way, place, read_sides
 
 _ARCS = 3
+_CROWD = 128
 _PAYS = 0.7  # a box that was narrowed to less than this share is tried again before it is bisected
 
 
@@ -120,7 +121,8 @@ def advanced(corners, edges, links, lengths, rows, limits, free, fine, budget): 
     free
         Whether they stop of their own accord, and not at a wall.
     fine
-        The wanted widths in metres and in radians: a row with wider images is bisected, until it is itself as small.
+        The wanted widths in metres and in radians: a row with wider images is bisected, until it is itself as small. Then the same for
+        crowds: where more than `_CROWD` rows are as small as these, they are many because they lie along a curve, and are left so.
     budget
         How many rows are tried at most before the rest is left as wide as it is.
     """
@@ -132,7 +134,10 @@ def advanced(corners, edges, links, lengths, rows, limits, free, fine, budget): 
     queue[: len(rows)] = rows
     head, tail = 0, len(rows)
     result, count, wide = np.empty((64, COLUMNS)), 0, 0
+    end_of_generation, crowded = 0, False
     while head < tail:
+        if head >= end_of_generation:
+            end_of_generation, crowded = tail, tail - head > _CROWD
         row = queue[head]
         if free:
             hits = _driven(corners, edges, links, row, least, most, sides, into, heights, ways, ends)
@@ -141,6 +146,9 @@ def advanced(corners, edges, links, lengths, rows, limits, free, fine, budget): 
         small = True
         for hit in range(hits):
             small = small and _is_small(ends[hit], lengths, fine_m, fine_rad)
+        if hits and not small and not _is_small(row, lengths, fine_m, fine_rad) and tail < len(queue):
+            if crowded and _is_small(row, lengths, fine[2], fine[3]):
+                small = True
         if hits and not small and not _is_small(row, lengths, fine_m, fine_rad) and tail < len(queue):
             if not free:  # what leads to none of the ends is left out
                 before = _width(row, lengths)[0], row[7] - row[6]

@@ -54,7 +54,7 @@ class Chord:
     def configurations(self) -> Configurations:
         """Boxes around the curve, coarse."""
         model = self.model
-        fine = np.array([_COARSE * model.walls.size, _COARSE])
+        fine = np.array([_COARSE * model.walls.size, _COARSE] * 2)
         headings = turned(everywhere(model.walls).rows, -math.pi, math.pi)
         rows = model.driven(headings, self.length, False, fine, _BUDGET)
         return Configurations(model.walls, turned(rows, *self.turn))
@@ -102,11 +102,10 @@ class OdometerModel(Model[States, Command, float]):
         self.budget = budget or (_EXACT_BUDGET if self.bounds.exact else _BUDGET)
         size = self.walls.size
         if self.bounds.exact:
-            self.fine = np.array([_FINE * size, _FINE])
+            self.fine = np.array([_FINE * size, _FINE, _COARSE * size, _COARSE])
         else:
-            self.fine = np.array(
-                [max(0.5 * self.bounds.distance_part * size, _FINE * size), max(0.5 * math.radians(self.bounds.turn_deg), _FINE)]
-            )
+            fine_m, fine_rad = max(0.5 * self.bounds.distance_part * size, _FINE * size), max(0.5 * math.radians(self.bounds.turn_deg), _FINE)
+            self.fine = np.array([fine_m, fine_rad, fine_m, fine_rad])
         self._chords: FloatArray = chords(self.walls.corners, self.walls.edges, self.walls.links, size)
 
     def __repr__(self) -> str:

@@ -1,0 +1,125 @@
+"""`Pilot`: what to do next in order to tell hypotheses apart, and whether that is done."""
+
+import math
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from functools import cache
+
+import numpy as np
+
+from ial.maps.polygons.exact.congruence import Congruence, near_congruences
+from ial.odometer.command import Command
+from ial.odometer.configurations import FloatArray
+from ial.odometer.hypotheses import Hypothesis, hypotheses, one_orbit
+from ial.odometer.model import Chord, OdometerModel, States
+from ial.odometer.overlay import way_apart
+from ial.odometer.splitting import predicted, scores, turns_deg
+
+_MOST_SAMPLES = 64
+_GAP = 1e-7  # of the size: by how much readings differ that tell hypotheses apart
+_NARROW = 1e-4  # of the size, and radians: a hypothesis so narrow is a point to a robot with exact odometers
+_SAME = 1e-9  # of the size: corners nearer than this are one to any reading
+_TRIED = 12  # directions are tried for how narrow they leave a hypothesis
+_PAYS = 0.95
+_PATIENCE = 6  # commands that make nothing narrower, before it is called as narrow as it gets
+
+Planned = list[tuple[Command, str]]
+
+
+class Pilot:
+    """Chooses commands for a robot.
+
+    Parameters
+    ----------
+    models
+        The robot in each environment.
+    """
+
+    def __init__(self, models: Mapping[str, OdometerModel]) -> None:
+        self._models = models
+        self.size = max(model.walls.size for model in models.values())
+        self.exact = all(model.bounds.exact for model in models.values())
+        self._turns = turns_deg()
+        self._radians = np.array([math.radians(each) for each in self._turns])
+        self._best = math.inf
+        self._vain = 0
+        self._motions = cache(self._found_motions)
+
+    def __repr__(self) -> str:
+        return f"<Pilot in {len(self._models)} environments>"
+
+    def found(self, states: Mapping[str, States]) -> list[Hypothesis]:
+        """Return the hypotheses in all environments."""
+        boxes = {name: each.configurations if isinstance(each, Chord) else each for name, each in states.items()}
+        return [each for name, sets in boxes.items() for each in hypotheses(name, sets)]
+
+    def finished(self, found: Sequence[Hypothesis], states: Mapping[str, States]) -> bool:
+        """Return whether all hypotheses are one up to symmetry, and as narrow as they get."""
+        widest = max(each.width_m / self.size + each.width_rad for each in found)
+        if len(found) > 2 * max(len(model.walls) for model in self._models.values()) * len(self._models):
+            return False
+        if not one_orbit(found, self._motions, self.size):
+            return False
+        if self.exact:
+            return widest <= _NARROW
+        self._vain = 0 if widest < _PAYS * self._best else self._vain + 1
+        self._best = min(self._best, widest)
+        return self._vain >= _PATIENCE
+
+    def commands(self, found: Sequence[Hypothesis], states: Mapping[str, States]) -> Planned:
+        """Return what to do next; nothing if no command helps."""
+        distances, gaps, total = self._predictions(found)
+        expected = scores(distances, gaps)
+        best = int(np.argmin(expected))
+        if expected[best] < total - 0.5:
+            return [(Command(self._turns[best]), "by a direction")]
+        if len(found) == 1 or not self.exact:
+            return self._narrowing(found, states, distances)
+        wide = max(each.width_m / self.size + each.width_rad for each in found)
+        if wide > _NARROW:
+            return [(Command(self._turns[int(np.argmax(distances.min(axis=0)))]), "to make it smaller")]
+        first = found[0]
+        for other in found[1:]:
+            if not one_orbit([first, other], self._motions, self.size):
+                way = way_apart(self._polygon(first), first, self._polygon(other), other)
+                if way:
+                    return [(each, "by a place that only one has") for each in way]
+        return []
+
+    def _polygon(self, hypothesis: Hypothesis):  # type: ignore[no-untyped-def]
+        return self._models[hypothesis.world].walls.polygon
+
+    def _predictions(self, found: Sequence[Hypothesis]) -> tuple[FloatArray, FloatArray, int]:
+        """Return for samples of the hypotheses how far they would drive, and by how much that must differ to be seen."""
+        each = max(1, _MOST_SAMPLES // len(found))
+        rows = []
+        for name, model in self._models.items():
+            places = [one.samples[np.linspace(0, len(one.samples) - 1, min(each, len(one.samples))).astype(np.int64)] for one in found if one.world == name]
+            if places:
+                rows.append(predicted(model.walls, np.concatenate(places), self._radians))
+        distances = np.concatenate(rows)
+        part = max(model.bounds.distance_part for model in self._models.values())
+        turn = math.radians(max(model.bounds.turn_deg for model in self._models.values()))
+        order = np.sort(distances, axis=0)
+        with np.errstate(invalid="ignore"):
+            gaps = _GAP * self.size + 2.0 * order * (part + turn)
+        return distances, gaps, len(distances)
+
+    def _narrowing(self, found: Sequence[Hypothesis], states: Mapping[str, States], distances: FloatArray) -> Planned:
+        """Return the command that leaves the narrowest set if the first hypothesis is right, of some that are tried."""
+        best, chosen = math.inf, None
+        for number in range(0, len(self._turns), max(1, len(self._turns) // _TRIED)):
+            way = float(distances[0, number])
+            if not 0.0 < way < math.inf:
+                continue
+            command = Command(self._turns[number])
+            after = {name: model.step(states[name], command, way) for name, model in self._models.items()}
+            left = self.found(after)
+            if left:
+                wide = max(each.width_m / self.size + each.width_rad for each in left) * len(left)
+                if wide < best:
+                    best, chosen = wide, command
+        return [] if chosen is None else [(chosen, "to make it smaller")]
+
+    def _found_motions(self, one: str, other: str) -> list[Congruence]:
+        return near_congruences(self._models[one].walls.polygon, self._models[other].walls.polygon, _SAME * self.size)
