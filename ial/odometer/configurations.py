@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.intervals.angle import contains_angle
+from ial.contractors.kernels import kernel
 from ial.odometer.casting import COLUMNS, place
 from ial.odometer.wall_table import WallTable
 
@@ -81,9 +82,14 @@ def dead_ends(walls: WallTable) -> Configurations:
     return Configurations(walls, _placed(walls, rows))
 
 
+@kernel
+def _place_all(corners, edges, rows):  # type: ignore[no-untyped-def]
+    for i in range(len(rows)):
+        rows[i, 2], rows[i, 3], rows[i, 4], rows[i, 5] = place(corners, edges, rows[i])
+
+
 def _placed(walls: WallTable, rows: FloatArray) -> FloatArray:
-    for row in rows:
-        row[2:6] = place(walls.corners, walls.edges, row)
+    _place_all(walls.corners, walls.edges, rows)
     return rows
 
 

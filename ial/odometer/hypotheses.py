@@ -59,18 +59,17 @@ def hypotheses(world: str, states: Configurations) -> list[Hypothesis]:
     clusters = cluster(boxes, circular=(2,))
     middles = states.middles()
     ox, oy = states.walls.origin
+    order = np.argsort(clusters.labels, kind="stable")
+    starts = np.searchsorted(clusters.labels[order], np.arange(len(clusters) + 1)).tolist()
+    hulls = 0.5 * (clusters.hulls.lower + clusters.hulls.upper)
+    wide = np.nextafter(clusters.hulls.upper - clusters.hulls.lower, math.inf)
     found = []
-    for number in range(len(clusters)):
-        low, high = clusters.hulls.lower[number], clusters.hulls.upper[number]
-        members = np.flatnonzero(clusters.labels == number)
-        chosen = members[np.linspace(0, len(members) - 1, min(len(members), _MOST_SAMPLES)).round().astype(np.int64)]
-        x, y, heading = (0.5 * (low + high)).tolist()
-        width = math.nextafter(math.hypot(*(np.nextafter(high - low, math.inf)[:2]).tolist()) * (1.0 + 2.0**-50), math.inf)
-        found.append(
-            Hypothesis(
-                world, x + ox, y + oy, wrapped(heading), width, float(np.nextafter(high[2] - low[2], math.inf)), middles[chosen]
-            )
-        )
+    for number, ((x, y, heading), (width_x, width_y, width)) in enumerate(zip(hulls.tolist(), wide.tolist(), strict=True)):
+        first, last = starts[number], starts[number + 1]
+        chosen = order[first : last : -(-(last - first) // _MOST_SAMPLES)]
+        diagonal = math.hypot(width_x, width_y) * (1.0 + 2.0**-50)
+        turned = (heading + math.pi) % (2.0 * math.pi) - math.pi
+        found.append(Hypothesis(world, x + ox, y + oy, turned, diagonal, width, middles[chosen]))
     return found
 
 

@@ -11,6 +11,7 @@ from ial.contractors.intervals.angle import wrap_angle
 from ial.contractors.intervals.arithmetic import add
 from ial.contractors.rounding import check_rounding
 from ial.errors import StreamError
+from ial.maps.polygons.exact.congruence import Congruence, near_congruences
 from ial.maps.polygons.polygon import Polygon
 from ial.membership.model import Model
 from ial.odometer.advancing import advanced, stayed, turned
@@ -25,6 +26,8 @@ _FINE = 1e-6  # of the size, and radians: to which width boxes are bisected if t
 _COARSE = 1e-2  # the same for a chord that is asked for its boxes
 _EXACT_BUDGET, _BUDGET = 2_000, 30_000
 _HALF_TURN_DEG = 180
+SAME = 1e-9
+"""Of the size: corners nearer than this are one to any reading, so that symmetries which miss them by no more are symmetries."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +88,8 @@ class OdometerModel(Model[States, Command, float]):
     Examples
     --------
     >>> from fractions import Fraction
-    >>> from ial.maps.polygons.polygon import Polygon
+    >>> from ial.maps.polygons.exact.congruence import Congruence, near_congruences
+from ial.maps.polygons.polygon import Polygon
     >>> from ial.membership import SetMembershipFilter
     >>> from ial.odometer import Command, OdometerModel
     >>> model = OdometerModel(Polygon(((0, 0), (4, 0), (4, 3), (0, 3))))
@@ -110,6 +114,11 @@ class OdometerModel(Model[States, Command, float]):
 
     def __repr__(self) -> str:
         return f"<OdometerModel among {len(self.walls)} walls, {self.bounds!r}>"
+
+    @cached_property
+    def symmetries(self) -> list[Congruence]:
+        """The rotations that lay the environment upon itself: between their images, no motion of the robot can tell."""
+        return near_congruences(self.walls.polygon, self.walls.polygon, SAME * self.walls.size)
 
     def universe(self) -> States:
         """Return every configuration in which a wall has stopped a robot: what is known after a first drive, whatever that read."""

@@ -11,15 +11,14 @@ from ial.maps.polygons.exact.congruence import Congruence, near_congruences
 from ial.odometer.command import Command
 from ial.odometer.configurations import FloatArray
 from ial.odometer.hypotheses import Hypothesis, hypotheses, one_orbit
-from ial.odometer.model import Chord, OdometerModel, States
+from ial.odometer.model import SAME, Chord, OdometerModel, States
 from ial.odometer.overlay import way_apart
 from ial.odometer.splitting import predicted, scores, turns_deg
 
 _MOST_SAMPLES = 64
 _GAP = 1e-7  # of the size: by how much readings differ that tell hypotheses apart
 _NARROW = 1e-4  # of the size, and radians: a hypothesis so narrow is a point to a robot with exact odometers
-_SAME = 1e-9  # of the size: corners nearer than this are one to any reading
-_TRIED = 12  # directions are tried for how narrow they leave a hypothesis
+_TRIED = 12  # directions that are tried for how narrow they leave the set
 _PAYS = 0.95
 _PATIENCE = 6  # commands that make nothing narrower, before it is called as narrow as it gets
 
@@ -41,6 +40,8 @@ class Pilot:
         self.exact = all(model.bounds.exact for model in models.values())
         self._turns = turns_deg()
         self._radians = np.array([math.radians(each) for each in self._turns])
+        part, turn = (max(getattr(each.bounds, name) for each in models.values()) for name in ("distance_part", "turn_deg"))
+        self._part = 2.0 * (part + math.radians(turn))  # of a distance: by how much readings differ for certain
         self._best = math.inf
         self._vain = 0
         self._motions = cache(self._found_motions)
@@ -56,9 +57,7 @@ class Pilot:
     def finished(self, found: Sequence[Hypothesis], states: Mapping[str, States]) -> bool:
         """Return whether all hypotheses are one up to symmetry, and as narrow as they get."""
         widest = max(each.width_m / self.size + each.width_rad for each in found)
-        if len(found) > 2 * max(len(model.walls) for model in self._models.values()) * len(self._models):
-            return False
-        if not one_orbit(found, self._motions, self.size):
+        if len(found) > sum(len(self._motions(found[0].world, name)) for name in self._models) or not one_orbit(found, self._motions, self.size):
             return False
         if self.exact:
             return widest <= _NARROW
@@ -68,10 +67,10 @@ class Pilot:
 
     def commands(self, found: Sequence[Hypothesis], states: Mapping[str, States]) -> Planned:
         """Return what to do next; nothing if no command helps."""
-        distances, gaps, total = self._predictions(found)
-        expected = scores(distances, gaps)
+        distances = self._predictions(found)
+        expected = scores(distances, _GAP * self.size, self._part)
         best = int(np.argmin(expected))
-        if expected[best] < total - 0.5:
+        if expected[best] < len(distances) - 0.5:
             return [(Command(self._turns[best]), "by a direction")]
         if len(found) == 1 or not self.exact:
             return self._narrowing(found, states, distances)
@@ -89,21 +88,15 @@ class Pilot:
     def _polygon(self, hypothesis: Hypothesis):  # type: ignore[no-untyped-def]
         return self._models[hypothesis.world].walls.polygon
 
-    def _predictions(self, found: Sequence[Hypothesis]) -> tuple[FloatArray, FloatArray, int]:
-        """Return for samples of the hypotheses how far they would drive, and by how much that must differ to be seen."""
-        each = max(1, _MOST_SAMPLES // len(found))
+    def _predictions(self, found: Sequence[Hypothesis]) -> FloatArray:
+        """Return for samples of the hypotheses how far they would drive."""
+        most = max(1, _MOST_SAMPLES // len(found))
         rows = []
         for name, model in self._models.items():
-            places = [one.samples[np.linspace(0, len(one.samples) - 1, min(each, len(one.samples))).astype(np.int64)] for one in found if one.world == name]
+            places = [one.samples[:: -(-len(one.samples) // most)] for one in found if one.world == name]
             if places:
                 rows.append(predicted(model.walls, np.concatenate(places), self._radians))
-        distances = np.concatenate(rows)
-        part = max(model.bounds.distance_part for model in self._models.values())
-        turn = math.radians(max(model.bounds.turn_deg for model in self._models.values()))
-        order = np.sort(distances, axis=0)
-        with np.errstate(invalid="ignore"):
-            gaps = _GAP * self.size + 2.0 * order * (part + turn)
-        return distances, gaps, len(distances)
+        return np.concatenate(rows)
 
     def _narrowing(self, found: Sequence[Hypothesis], states: Mapping[str, States], distances: FloatArray) -> Planned:
         """Return the command that leaves the narrowest set if the first hypothesis is right, of some that are tried."""
@@ -122,4 +115,6 @@ class Pilot:
         return [] if chosen is None else [(chosen, "to make it smaller")]
 
     def _found_motions(self, one: str, other: str) -> list[Congruence]:
-        return near_congruences(self._models[one].walls.polygon, self._models[other].walls.polygon, _SAME * self.size)
+        if one == other:
+            return self._models[one].symmetries
+        return near_congruences(self._models[one].walls.polygon, self._models[other].walls.polygon, SAME * self.size)

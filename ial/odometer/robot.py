@@ -65,6 +65,7 @@ class OdometerRobot:
             self._heading_deg = Fraction(heading_deg)
             self._rings = [[(_decimal(cx), _decimal(cy)) for cx, cy in ring] for ring in polygon.rings]
             bounds_of = [_decimal(each) for each in polygon.bounds]
+            self._wall: tuple[int, int] | None = None
             self._nothing = _NOTHING * max(bounds_of[2] - bounds_of[0], bounds_of[3] - bounds_of[1])
 
     def __repr__(self) -> str:
@@ -99,14 +100,15 @@ class OdometerRobot:
         self._heading_deg = (self._heading_deg + command.turn_deg + turn) % 360
         with localcontext(self._context):
             ux, uy = _direction(self._heading_deg)
-            way, corner = self._to_wall(ux, uy)
+            way, corner, wall = self._to_wall(ux, uy)
             factor = _decimal(1 + part)
             if way * factor >= Decimal(command.ahead_m):
-                way, corner = Decimal(command.ahead_m) / factor, None
+                way, corner, wall = Decimal(command.ahead_m) / factor, None, None
                 reading = command.ahead_m
             else:
                 reading = float(way * factor)
             self._x, self._y = corner or (self._x + way * ux, self._y + way * uy)
+            self._wall = wall
         return reading
 
     def _error(self, bound: float) -> Fraction:
@@ -116,28 +118,31 @@ class OdometerRobot:
         drawn = self._random.choice((-1.0, 1.0, self._random.uniform(-1.0, 1.0), self._random.uniform(-1.0, 1.0)))
         return Fraction(bound * _INSIDE * drawn)
 
-    def _to_wall(self, ux: Decimal, uy: Decimal) -> tuple[Decimal, tuple[Decimal, Decimal] | None]:
-        """Return how far it is to where a wall stops the robot, and the corner where it does, if it is one."""
-        nothing, best, corner = self._nothing, Decimal("Infinity"), None
-        for ring in self._rings:
+    def _to_wall(self, ux: Decimal, uy: Decimal) -> tuple[Decimal, tuple[Decimal, Decimal] | None, tuple[int, int] | None]:
+        """Return how far it is to where a wall stops the robot, and the corner where it does, or the inside of which wall."""
+        nothing, best, corner, wall = self._nothing, Decimal("Infinity"), None, None
+        for number, ring in enumerate(self._rings):
             count = len(ring)
             seen = [(x - self._x, y - self._y) for x, y in ring]
             off = [ux * y - uy * x for x, y in seen]
             for at in range(count):
                 (ax, ay), (bx, by) = seen[at - 1], seen[at]
+                across = ux * (by - ay) - uy * (bx - ax)
+                stands = self._wall == (number, at)  # its place is rounded, so it is remembered that it is on this wall
+                if stands and across > nothing:
+                    return Decimal(0), (self._x, self._y), self._wall
                 if abs(off[at]) <= nothing:
                     far = ux * bx + uy * by
                     if -nothing <= far < best and not _leaves(seen[at - 1], seen[at], seen[(at + 1) % count], ux, uy):
-                        best, corner = max(far, Decimal(0)), ring[at]
-                elif abs(off[at - 1]) > nothing and (off[at] > 0) != (off[at - 1] > 0):
-                    across = ux * (by - ay) - uy * (bx - ax)
+                        best, corner, wall = max(far, Decimal(0)), ring[at], None
+                elif not stands and abs(off[at - 1]) > nothing and (off[at] > 0) != (off[at - 1] > 0):
                     far = (ax * (by - ay) - ay * (bx - ax)) / across
                     out_of = across > 0  # the free space is on the left of a wall, so this one is crossed from inside
                     if (out_of or far > nothing) and -nothing <= far < best:
-                        best, corner = max(far, Decimal(0)), None
+                        best, corner, wall = max(far, Decimal(0)), None, (number, at)
         if best <= nothing:
-            return Decimal(0), (self._x, self._y)
-        return best, corner
+            return Decimal(0), (self._x, self._y), wall
+        return best, corner, wall
 
 
 def _leaves(

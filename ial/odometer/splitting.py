@@ -61,22 +61,35 @@ def turns_deg() -> list[Fraction]:
     return [Fraction(360 * number, DIRECTIONS) for number in range(1, DIRECTIONS)]
 
 
-def scores(distances: FloatArray, gap_m: FloatArray) -> FloatArray:
+@kernel
+def _mean_classes(distances, gaps, result):  # type: ignore[no-untyped-def]
+    """Write the mean size of the class that a hypothesis is in, for each column."""
+    count = len(distances)
+    for turn in range(distances.shape[1]):
+        order = np.sort(distances[:, turn])
+        begin, total = 0, 0
+        for at in range(1, count + 1):
+            apart = at == count
+            if not apart and order[at] < np.inf:
+                apart = order[at] - order[at - 1] > gaps[0] + gaps[1] * order[at]
+            elif not apart:
+                apart = order[at - 1] < np.inf
+            if apart:
+                total += (at - begin) ** 2
+                begin = at
+        result[turn] = total / count
+
+
+def scores(distances: FloatArray, gap_m: float, gap_part: float) -> FloatArray:
     """Return how many hypotheses are expected to be left after each turn: the mean size of the class a hypothesis is in.
 
     Parameters
     ----------
     distances
-        How far each drives after each turn, float64 of shape (m, turns).
-    gap_m
-        By how much two must differ to be told apart, for each distance in order, in metres: float64 of the same shape.
+        How far each drives after each turn, float64 of shape (m, turns), at least one.
+    gap_m, gap_part
+        By how much two must differ to be told apart: a distance in metres, and a part of the larger one.
     """
-    count = len(distances)
-    order = np.sort(distances, axis=0)
-    with np.errstate(invalid="ignore"):
-        cut = (np.diff(order, axis=0) > gap_m[1:]) | (np.isinf(order[1:]) != np.isinf(order[:-1]))
     result = np.empty(distances.shape[1])
-    for turn in range(len(result)):
-        ends = np.flatnonzero(np.concatenate([[True], cut[:, turn], [True]]))
-        result[turn] = (np.diff(ends) ** 2).sum() / count
+    _mean_classes(distances, np.array([gap_m, gap_part]), result)
     return result

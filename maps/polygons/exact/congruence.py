@@ -81,10 +81,10 @@ def near_congruences(one: Polygon, other: Polygon, tolerance_m: float) -> list[C
     corners, targets = _complex(one.outer), _complex(other.outer)
     middle, middle_there = corners.mean(), targets.mean()
     lengths, lengths_there = np.abs(np.roll(corners, -1) - corners), np.abs(np.roll(targets, -1) - targets)
+    numbers = np.arange(len(corners))
+    differ = np.abs(lengths[None, :] - lengths_there[(numbers[:, None] + numbers[None, :]) % len(corners)]).max(axis=1)
     found = []
-    for shift in range(len(corners)):
-        if np.abs(lengths - np.roll(lengths_there, -shift)).max() > 2.0 * tolerance_m:
-            continue
+    for shift in np.flatnonzero(differ <= 2.0 * tolerance_m).tolist():
         turn = np.vdot(corners - middle, np.roll(targets, -shift) - middle_there)  # the least squares fit
         if abs(turn) == 0.0:
             continue
