@@ -24,7 +24,7 @@ from ial.odometer.wall_table import WallTable
 
 _FINE = 1e-6  # of the size, and radians: to which width boxes are bisected if the odometers are exact
 _COARSE = 1e-2  # the same for a chord that is asked for its boxes
-_EXACT_BUDGET, _BUDGET = 2_000, 30_000
+_EXACT_BUDGET, _BUDGET = 1_000, 20_000
 _HALF_TURN_DEG = 180
 SAME = 1e-9
 """Of the size: corners nearer than this are one to any reading, so that symmetries which miss them by no more are symmetries."""
@@ -215,7 +215,13 @@ from ial.maps.polygons.polygon import Polygon
         return Configurations(self.walls, self._tidied(stayed(*self._facing, turned(states.rows, *turn))))
 
     def _tidied(self, rows: FloatArray) -> FloatArray:
-        return tidied(rows, float(self.fine[0]), float(self.fine[1]), self.walls.lengths)
+        """Return fewer rows that hold the same, at most as many as the budget; for that they are joined in cells as coarse as need be."""
+        fine_m, fine_rad = float(self.fine[0]), float(self.fine[1])
+        rows = tidied(rows, fine_m, fine_rad, self.walls.lengths)
+        while len(rows) > self.budget:
+            fine_m, fine_rad = 2.0 * fine_m, 2.0 * fine_rad
+            rows = tidied(rows, fine_m, fine_rad, self.walls.lengths)
+        return rows
 
 
 def _boxes(states: States) -> Configurations:
