@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal, Protocol
 
-from ial.errors import ConfigError
+from ial.errors import ConfigError, ImpossibleError
 from ial.maps.polygons.polygon import Polygon
 from ial.membership import SetMembershipFilter, Worlds
 from ial.odometer.command import Command
@@ -88,6 +88,12 @@ class Localization:
         return max((each.width_m for each in self.hypotheses), default=math.inf)
 
     @property
+    def narrowest(self) -> Hypothesis | None:
+        """The narrowest hypothesis that was ever alone: how far the set could be made to shrink; None if none was."""
+        alone = [found[0] for found in self.trail if len(found) == 1]
+        return min(alone, key=lambda each: each.width_m, default=None)
+
+    @property
     def width_rad(self) -> float:
         """The widest interval of headings of a hypothesis in radians; infinite if there is none."""
         return max((each.width_rad for each in self.hypotheses), default=math.inf)
@@ -120,7 +126,15 @@ def localize(
     ------
     ConfigError
         If there is no environment, or fewer than four commands are allowed.
+    ImpossibleError
+        If the robot has no linear odometer: see `ial.odometer.undecided`.
     """
+    if bounds is not None and not bounds.measures:
+        raise ImpossibleError(
+            "a robot that can turn by known angles and feel walls, but measures no distance, cannot be localized in any polygon: whatever "
+            "it does, a whole segment of places remains possible (O'Kane and LaValle, Localization with limited sensing, 2007, section VI, "
+            "robot R3); give it a linear odometer, or a compass"
+        )
     worlds = {ONLY: environment} if isinstance(environment, Polygon) else dict(environment)
     if not worlds:
         raise ConfigError("there is no environment to be in; give at least one")

@@ -24,7 +24,7 @@ from ial.odometer.wall_table import WallTable
 
 _FINE = 1e-6  # of the size, and radians: to which width boxes are bisected if the odometers are exact
 _COARSE = 1e-2  # the same for a chord that is asked for its boxes
-_EXACT_BUDGET, _BUDGET = 1_000, 20_000
+_EXACT_BUDGET, _CHORD_BUDGET, _BUDGET = 1_000, 5_000, 20_000
 _HALF_TURN_DEG = 180
 SAME = 1e-9
 """Of the size: corners nearer than this are one to any reading, so that symmetries which miss them by no more are symmetries."""
@@ -59,7 +59,7 @@ class Chord:
         model = self.model
         fine = np.array([_COARSE * model.walls.size, _COARSE] * 2)
         headings = turned(everywhere(model.walls).rows, -math.pi, math.pi)
-        rows = model.driven(headings, self.length, False, fine, _BUDGET)
+        rows = model.driven(headings, self.length, False, fine, _CHORD_BUDGET)
         return Configurations(model.walls, turned(rows, *self.turn))
 
     def holds(self, x: float, y: float, heading_rad: float) -> bool:
@@ -153,19 +153,7 @@ from ial.maps.polygons.polygon import Polygon
         free = reading >= motion.ahead_m
         if self.bounds.exact and not free:
             if isinstance(states, Chord):
-                total = add(*states.turn, *turn)
-                walls = self.walls
-                rows = candidates(
-                    walls.corners,
-                    walls.edges,
-                    walls.links,
-                    walls.size,
-                    self._chords,
-                    np.array(states.length),
-                    np.array(way),
-                    *wrap_angle(*total),
-                )
-                return Configurations(walls, self._tidied(rows))
+                return Configurations(self.walls, self._tidied(self.crossings(states, turn, way)[0]))
             if states.everywhere:
                 return Chord(self, way, (0.0, 0.0))
         rows = self.driven(turned(_boxes(states).rows, *turn), way, free)
@@ -182,6 +170,24 @@ from ial.maps.polygons.polygon import Polygon
             low, high = states.length
             return not bool(((self._chords[..., 0] <= high) & (self._chords[..., 1] >= low)).any())
         return len(states) == 0
+
+    def crossings(self, chord: Chord, turn: tuple[float, float], way: tuple[float, float]) -> tuple[FloatArray, FloatArray]:
+        """Return the configurations after a second drive, and where they came from; see `ial.odometer.triples.candidates`.
+
+        Parameters
+        ----------
+        chord
+            What the first drive left.
+        turn
+            Bounds of the turn before the second one, in radians.
+        way
+            Bounds of the length of the second one, in metres.
+        """
+        walls = self.walls
+        table = walls.corners, walls.edges, walls.links, walls.size, self._chords
+        found: tuple[FloatArray, FloatArray]
+        found = candidates(*table, np.array(chord.length), np.array(way), *wrap_angle(*add(*chord.turn, *turn)))
+        return found
 
     def driven(
         self, rows: FloatArray, way: tuple[float, float], free: bool, fine: FloatArray | None = None, budget: int | None = None

@@ -22,7 +22,7 @@ class OdometerBounds:
     ----------
     distance_part
         By which part of the true distance a reading may be wrong: a reading y of a distance d has \\|y − d\\| <= part · d. So a reading is 0
-        if, and only if, the robot did not move.
+        if, and only if, the robot did not move. Infinite: it has no linear odometer.
     turn_deg
         By how many degrees a turn may be larger or smaller than commanded. Each turn has an error of its own.
 
@@ -36,13 +36,18 @@ class OdometerBounds:
     turn_deg: float = 0.0
 
     def __post_init__(self) -> None:
-        if not 0.0 <= self.distance_part <= _LARGEST_PART:
+        if not 0.0 <= self.distance_part <= _LARGEST_PART and self.measures:
             raise ConfigError(
                 f"the distance error {self.distance_part:g} is a part of the distance; give a number from 0 to {_LARGEST_PART:g}"
             )
         if not 0.0 <= self.turn_deg <= _LARGEST_TURN_DEG:
             raise ConfigError(f"the turn error {self.turn_deg:g}° is not from 0 to {_LARGEST_TURN_DEG:g}°; give a smaller one")
         object.__setattr__(self, "distance_part", max(float(self.distance_part), EXACT))
+
+    @property
+    def measures(self) -> bool:
+        """Whether there is a linear odometer at all."""
+        return self.distance_part != math.inf
 
     @property
     def exact(self) -> bool:

@@ -204,7 +204,9 @@ def _may_see(corners, edges, i, j, found, way, doubt):  # type: ignore[no-untype
 
 @kernel
 def candidates(corners, edges, links, size, table, first, second, turn_l, turn_u):  # type: ignore[no-untyped-def]
-    """Return rows of bounds of all robots that drove one chord, turned, and drove a second one.
+    """Return rows of bounds of all robots that drove one chord, turned, and drove a second one; and rows of where they came from.
+
+    The latter hold bounds of a, b and c as the equations give them, and the numbers of the three walls: float64 of shape (m, 9).
 
     Parameters
     ----------
@@ -224,7 +226,7 @@ def candidates(corners, edges, links, size, table, first, second, turn_l, turn_u
     fixed, sides, lines, found = np.empty((2, 4)), np.empty((3, 4)), np.empty((3, 2)), np.empty((16 * _PIECES, 10))
     room = np.empty((4, n, 2))
     starts, ends, start = np.empty((n, COLUMNS)), np.empty((n, COLUMNS)), np.zeros(COLUMNS)
-    result, count, way = np.empty((64, COLUMNS)), 0, np.empty(2)
+    result, origins, count, way = np.empty((64, COLUMNS)), np.empty((64, 9)), 0, np.empty(2)
     middle = 0.5 * (turn_l + turn_u)
     for j in range(n):
         for i in range(n):
@@ -275,9 +277,9 @@ def candidates(corners, edges, links, size, table, first, second, turn_l, turn_u
                         if ends[hit, 8] != k:
                             continue
                         if count == len(result):
-                            grown = np.empty((2 * len(result), COLUMNS))
-                            grown[:count] = result
-                            result = grown
+                            result, origins = np.concatenate((result, result)), np.concatenate((origins, origins))
                         result[count] = ends[hit]
+                        origins[count, :6] = row[:6]
+                        origins[count, 6], origins[count, 7], origins[count, 8] = i, j, k
                         count += 1
-    return result[:count].copy()
+    return result[:count].copy(), origins[:count].copy()
