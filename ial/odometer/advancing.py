@@ -4,7 +4,6 @@ import numpy as np
 
 from ial.contractors.intervals.angle import intersect_angle, wrap_angle
 from ial.contractors.intervals.arithmetic import add, mul
-from ial.contractors.intervals.sets import intersect
 from ial.contractors.intervals.trigonometric import cos, sin
 from ial.contractors.kernels import kernel
 from ial.odometer.casting import COLUMNS, cast, free_way, place, read_sides
@@ -146,9 +145,7 @@ def advanced(corners, edges, links, lengths, rows, limits, free, fine, budget): 
         small = True
         for hit in range(hits):
             small = small and _is_small(ends[hit], lengths, fine_m, fine_rad)
-        if hits and not small and not _is_small(row, lengths, fine_m, fine_rad) and tail < len(queue):
-            if crowded and _is_small(row, lengths, fine[2], fine[3]):
-                small = True
+        small = small or (crowded and _is_small(row, lengths, fine[2], fine[3]))
         if hits and not small and not _is_small(row, lengths, fine_m, fine_rad) and tail < len(queue):
             if not free:  # what leads to none of the ends is left out
                 before = _width(row, lengths)[0], row[7] - row[6]
@@ -170,4 +167,3 @@ def advanced(corners, edges, links, lengths, rows, limits, free, fine, budget): 
             wide += not _is_small(ends[hit], lengths, fine_m, fine_rad)
         head += 1
     return result[:count].copy(), wide
-

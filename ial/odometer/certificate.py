@@ -21,8 +21,8 @@ def isolated(
 ) -> npt.NDArray[np.bool_]:
     """Return which candidates are proved to be exactly one solution of their equations, for all lengths and turns within bounds.
 
-    In a, b and c of `ial.odometer.triples`: \\|w\\|² = d_1², and p_c − p_b = (d_2/d_1)·R·w, in two coordinates. Boxes of a chain along a
-    curve are proved to be none; sight is not looked at, which can only take away solutions.
+    In a, b and c of `ial.odometer.triples`: w is as long as d_1, and p_c − p_b = (d_2/d_1)·R·w, in two coordinates. Boxes of a chain along
+    a curve are proved to be none; sight is not looked at, which can only take away solutions.
 
     Parameters
     ----------

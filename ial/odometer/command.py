@@ -14,7 +14,8 @@ class Command:
     Parameters
     ----------
     turn_deg
-        By how much to turn, counter-clockwise, in degrees; exactly, if the robot's angular odometer is exact.
+        By how much to turn, counter-clockwise, in degrees; exactly, if the robot's angular odometer is exact. A float means
+        exactly that double.
     ahead_m
         How far to drive at most by the robot's odometer, in metres; to the next wall by default. A reading of that is one of a robot that
         no wall has stopped.
@@ -29,7 +30,7 @@ class Command:
     ahead_m: float = math.inf
 
     def __post_init__(self) -> None:
-        if isinstance(self.turn_deg, float) and not math.isfinite(self.turn_deg):
+        if not math.isfinite(self.turn_deg):
             raise ConfigError(f"a turn by {self.turn_deg}° is none; give a finite number of degrees")
         if not self.ahead_m > 0.0:
             raise ConfigError(f"{self.ahead_m:g} m are no way ahead; give more than 0")

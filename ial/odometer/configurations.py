@@ -67,7 +67,7 @@ def everywhere(walls: WallTable) -> Configurations:
 
 
 def dead_ends(walls: WallTable) -> Configurations:
-    """Return the configurations in which a robot can drive neither on nor back: convex corners, with neither direction along the free space."""
+    """Return the configurations in which a robot can drive neither on nor back: convex corners, most headings."""
     rows = np.zeros((2 * len(walls), COLUMNS))
     for corner, (_, before, reflex) in enumerate(walls.links.tolist()):
         rows[2 * corner : 2 * corner + 2, 8] = -1.0 if reflex else corner

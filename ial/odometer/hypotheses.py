@@ -73,9 +73,7 @@ def hypotheses(world: str, states: Configurations) -> list[Hypothesis]:
     return found
 
 
-def one_orbit(
-    found: Sequence[Hypothesis], motions: Callable[[str, str], Sequence[Congruence]], size_m: float
-) -> bool:
+def one_orbit(found: Sequence[Hypothesis], motions: Callable[[str, str], Sequence[Congruence]], size_m: float) -> bool:
     """Return whether all hypotheses are images of the first one under motions that lay its environment upon theirs.
 
     Parameters

@@ -20,7 +20,7 @@ from ial.odometer.command import Command
 from ial.odometer.configurations import Configurations, FloatArray, dead_ends, everywhere, tidied
 from ial.odometer.odometer_bounds import OdometerBounds
 from ial.odometer.triples import candidates
-from ial.odometer.wall_table import WallTable
+from ial.odometer.wall_table import IntArray, WallTable
 
 _FINE = 1e-6  # of the size, and radians: to which width boxes are bisected if the odometers are exact
 _COARSE = 1e-2  # the same for a chord that is asked for its boxes
@@ -73,31 +73,31 @@ States: TypeAlias = Configurations | Chord
 class OdometerModel(Model[States, Command, float]):
     """Sets of configurations of the robot R1 of O'Kane and LaValle (2007), with bounded errors, which the paper does not have.
 
-    A command is a turn and a drive, a reading the distance of the drive. The free space is closed: a robot may slide along walls and pass
-    corners that it touches; where it cannot be told on which side it passes, both outcomes are kept.
+        A command is a turn and a drive, a reading the distance of the drive. The free space is closed: a robot slides along walls and passes
+        corners that it touches; where it cannot be told on which side it passes, both outcomes are kept.
 
     Parameters
     ----------
-    polygon
-        The free space.
-    bounds
-        By how much the odometers may be wrong.
-    budget
-        How many boxes a step tries at most; beyond, boxes stay as wide as they are.
+        polygon
+            The free space.
+        bounds
+            By how much the odometers may be wrong.
+        budget
+            How many boxes a step tries at most; beyond, boxes stay as wide as they are.
 
     Examples
     --------
-    >>> from fractions import Fraction
-    >>> from ial.maps.polygons.exact.congruence import Congruence, near_congruences
-from ial.maps.polygons.polygon import Polygon
-    >>> from ial.membership import SetMembershipFilter
-    >>> from ial.odometer import Command, OdometerModel
-    >>> model = OdometerModel(Polygon(((0, 0), (4, 0), (4, 3), (0, 3))))
-    >>> known = SetMembershipFilter(model, "absorb")
-    >>> for turn, reading in ((180, 3.75), (90, 2.0)):
-    ...     rejection = known.update(Command(Fraction(turn)), reading)
-    >>> len(known.states) > 0
-    True
+        >>> from fractions import Fraction
+        >>> from ial.maps.polygons.exact.congruence import Congruence, near_congruences
+    from ial.maps.polygons.polygon import Polygon
+        >>> from ial.membership import SetMembershipFilter
+        >>> from ial.odometer import Command, OdometerModel
+        >>> model = OdometerModel(Polygon(((0, 0), (4, 0), (4, 3), (0, 3))))
+        >>> known = SetMembershipFilter(model, "absorb")
+        >>> for turn, reading in ((180, 3.75), (90, 2.0)):
+        ...     rejection = known.update(Command(Fraction(turn)), reading)
+        >>> len(known.states) > 0
+        True
     """
 
     def __init__(self, polygon: Polygon, bounds: OdometerBounds | None = None, budget: int | None = None) -> None:
@@ -108,7 +108,10 @@ from ial.maps.polygons.polygon import Polygon
         if self.bounds.exact:
             self.fine = np.array([_FINE * size, _FINE, _COARSE * size, _COARSE])
         else:
-            fine_m, fine_rad = max(0.5 * self.bounds.distance_part * size, _FINE * size), max(0.5 * math.radians(self.bounds.turn_deg), _FINE)
+            fine_m, fine_rad = (
+                max(0.5 * self.bounds.distance_part * size, _FINE * size),
+                max(0.5 * math.radians(self.bounds.turn_deg), _FINE),
+            )
             self.fine = np.array([fine_m, fine_rad, fine_m, fine_rad])
         self._chords: FloatArray = chords(self.walls.corners, self.walls.edges, self.walls.links, size)
 
@@ -209,7 +212,7 @@ from ial.maps.polygons.polygon import Polygon
         return found
 
     @property
-    def _facing(self) -> tuple[FloatArray, ...]:
+    def _facing(self) -> tuple[FloatArray, FloatArray, IntArray, FloatArray]:
         return self.walls.corners, self.walls.edges, self.walls.links, self.walls.facing
 
     def _stopped(self, states: States, motion: Command, turn: tuple[float, float]) -> States:

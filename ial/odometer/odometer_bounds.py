@@ -21,8 +21,8 @@ class OdometerBounds:
     Parameters
     ----------
     distance_part
-        By which part of the true distance a reading may be wrong: a reading y of a distance d has \\|y − d\\| <= part · d. So a reading is 0
-        if, and only if, the robot did not move. Infinite: it has no linear odometer.
+        By which part of the true distance a reading may be wrong: a reading of a distance d lies within d ± part · d. So a reading is
+        0 if, and only if, the robot did not move. Infinite: it has no linear odometer.
     turn_deg
         By how many degrees a turn may be larger or smaller than commanded. Each turn has an error of its own.
 

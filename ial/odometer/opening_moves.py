@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from itertools import pairwise
 
 from ial.odometer.command import Command
 from ial.odometer.wall_table import WallTable
@@ -37,7 +38,7 @@ class OpeningMoves:
     def across(self) -> Iterator[Command]:
         """Yield the turns to try after a drive: to the left, to the right, and, if a sharp corner forbids both, beside the way back."""
         headings = [Fraction(0), Fraction(90), Fraction(-90), 180 - self.step_deg, 180 + self.step_deg]
-        for before, heading in zip(headings, headings[1:], strict=False):
+        for before, heading in pairwise(headings):
             yield Command(heading - before)
 
 

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from fractions import Fraction
 from functools import cache
 
 import numpy as np
@@ -57,7 +56,9 @@ class Pilot:
     def finished(self, found: Sequence[Hypothesis], states: Mapping[str, States]) -> bool:
         """Return whether all hypotheses are one up to symmetry, and as narrow as they get."""
         widest = max(each.width_m / self.size + each.width_rad for each in found)
-        if len(found) > sum(len(self._motions(found[0].world, name)) for name in self._models) or not one_orbit(found, self._motions, self.size):
+        if len(found) > sum(len(self._motions(found[0].world, name)) for name in self._models) or not one_orbit(
+            found, self._motions, self.size
+        ):
             return False
         if self.exact:
             return widest <= _NARROW

@@ -145,9 +145,7 @@ class OdometerRobot:
         return best, corner, wall
 
 
-def _leaves(
-    before: tuple[Decimal, Decimal], at: tuple[Decimal, Decimal], after: tuple[Decimal, Decimal], ux: Decimal, uy: Decimal
-) -> bool:
+def _leaves(before: tuple[Decimal, Decimal], at: tuple[Decimal, Decimal], after: tuple[Decimal, Decimal], ux: Decimal, uy: Decimal) -> bool:
     """Return whether free space lies ahead of a corner: between the wall that begins there and the one that ends there, both included."""
     fx, fy, bx, by = after[0] - at[0], after[1] - at[1], before[0] - at[0], before[1] - at[1]
     small = _NOTHING * max(map(abs, (fx, fy, bx, by)))

@@ -48,10 +48,10 @@ def _linear(fixed, sides, turn, ratio, found):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def _affine(base, slope, l, u, result):  # type: ignore[no-untyped-def]
-    """Write base + [l, u]·slope, two coordinates as four bounds."""
+def _affine(base, slope, low, high, result):  # type: ignore[no-untyped-def]
+    """Write base + [low, high]·slope, two coordinates as four bounds."""
     for at in (0, 2):
-        pl, pu = mul(l, u, slope[at], slope[at + 1])
+        pl, pu = mul(low, high, slope[at], slope[at + 1])
         result[at], result[at + 1] = add(base[at], base[at + 1], pl, pu)
 
 
@@ -254,14 +254,14 @@ def candidates(corners, edges, links, size, table, first, second, turn_l, turn_u
                 for box in range(boxes):
                     row = found[box]
                     tl, tu = direction(row[8], row[9], row[6], row[7])
-                    if row[7] - row[6] < _NARROW * size and row[9] - row[8] < _NARROW * size:
-                        if max(row[1] - row[0], row[3] - row[2]) * size < 4.0 * _NARROW * size:
-                            wx, wy = 0.5 * (row[6] + row[7]), 0.5 * (row[8] + row[9])
-                            way[0] = 0.5 * (ratio[0] + ratio[1]) * (cl * wx - sl * wy)
-                            way[1] = 0.5 * (ratio[0] + ratio[1]) * (sl * wx + cl * wy)
-                            scale = max(1.0, ratio[1])
-                            if not _may_see(corners, edges, i, j, row, way, 100.0 * scale * _NARROW * size):
-                                continue
+                    wide = max(max(row[7] - row[6], row[9] - row[8]), 0.25 * max(row[1] - row[0], row[3] - row[2]) * size)
+                    if wide < _NARROW * size:  # all ways of the box are within a few widths of the middle one, times d_2/d_1 for the second
+                        wx, wy = 0.5 * (row[6] + row[7]), 0.5 * (row[8] + row[9])
+                        way[0] = 0.5 * (ratio[0] + ratio[1]) * (cl * wx - sl * wy)
+                        way[1] = 0.5 * (ratio[0] + ratio[1]) * (sl * wx + cl * wy)
+                        scale = max(1.0, ratio[1])
+                        if not _may_see(corners, edges, i, j, row, way, 100.0 * scale * _NARROW * size):
+                            continue
                     start[0], start[1], start[6], start[7], start[8] = row[0], row[1], tl, tu, i
                     hits = cast(corners, edges, links, start, first[0], first[1], room[0], room[1], room[2], room[3], starts, ends)
                     seen = False

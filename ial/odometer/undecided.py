@@ -61,5 +61,8 @@ def _between(
 ) -> bool:
     """Return whether a corner lies in the quadrilateral that the segment sweeps: only there another wall could be in the way."""
     ring = (start.place, end.place, other.place, one.place)
-    sides = [[(bx - ax) * (y - ay) - (by - ay) * (x - ax) for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1], strict=True)] for x, y in shooter.corners]
+    sides = [
+        [(bx - ax) * (y - ay) - (by - ay) * (x - ax) for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1], strict=True)]
+        for x, y in shooter.corners
+    ]
     return any(all(side >= 0 for side in each) or all(side <= 0 for side in each) for each in sides)

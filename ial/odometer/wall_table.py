@@ -55,7 +55,10 @@ class WallTable:
         self.origin = float((low_x + high_x) / 2), float((low_y + high_y) / 2)
         self.size = float(max(high_x - low_x, high_y - low_y))
         ox, oy = Fraction(self.origin[0]), Fraction(self.origin[1])
-        corners, edges, links, facing = [], [], [], []
+        corners: list[tuple[float, ...]] = []
+        edges: list[tuple[float, ...]] = []
+        links: list[tuple[int, int, int]] = []
+        facing: list[tuple[float, float]] = []
         for ring in polygon.rings:
             first, count = len(corners), len(ring)
             for at, (x, y) in enumerate(ring):

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from fractions import Fraction
 
     from ial.maps.polygons.polygon import Polygon
-    from ial.odometer import Localization, OdometerBounds, OdometerRobot
+    from ial.odometer import Localization
 
 EnvironmentPath = Annotated[
     Path | None,

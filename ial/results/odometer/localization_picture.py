@@ -50,7 +50,7 @@ def draw_localization(
     pair = _pair(first, found.hypotheses)
     keys = [
         Line2D([], [], color=PATH, marker="o", markersize=4, linewidth=1.6, label="path of the robot"),
-        Line2D([], [], color=TRUTH, marker="o", markersize=7, linestyle="none", label="where it is"),
+        Line2D([], [], color=TRUTH, marker="o", markersize=9, linestyle="none", label="where it is"),
         Line2D([], [], color=FOUND, marker=">", markersize=8, linestyle="none", label="a hypothesis"),
         Patch(facecolor=STATUS_COLOURS["localized"], alpha=0.35, label="in the frame of one candidate"),
         Patch(facecolor=_OTHER, alpha=0.45, label="in the frame of another"),
@@ -68,11 +68,11 @@ def draw_localization(
     driven.set_title(f"path from the open circle, {len(found.steps)} drives", fontsize=9)
     at = next((number for number, each in enumerate(found.trail) if each), len(places) - 2)
     _arrows(candidates, first)
-    candidates.plot(*places[at + 1], color=TRUTH, marker="o", markersize=7, zorder=9)
+    candidates.plot(*places[at + 1], color=TRUTH, marker="o", markersize=9, zorder=7)
     candidates.set_title(f"after {at + 1} drives: {len(first)} candidate{'s' * (len(first) != 1)}", fontsize=9)
     _overlay(overlay, polygons, pair)
     _arrows(end, found.hypotheses)
-    end.plot(*places[-1], color=TRUTH, marker="o", markersize=7, zorder=9)
+    end.plot(*places[-1], color=TRUTH, marker="o", markersize=9, zorder=7)
     count = len(found.hypotheses)
     end.set_title(f"at the end: {count} hypothes{'is' if count == 1 else 'es'}", fontsize=9)
     page.write(path)

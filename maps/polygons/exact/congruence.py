@@ -121,9 +121,7 @@ def _sides(ring: ExactRing) -> Sides:
     """Return for each side its squared length, and its dot and cross product with the next one."""
     corners = [(rational(x), rational(y)) for x, y in ring]
     ways = [(bx - ax, by - ay) for (ax, ay), (bx, by) in zip(corners, corners[1:] + corners[:1], strict=True)]
-    return [
-        (ax * ax + ay * ay, ax * bx + ay * by, ax * by - ay * bx) for (ax, ay), (bx, by) in zip(ways, ways[1:] + ways[:1], strict=True)
-    ]
+    return [(ax * ax + ay * ay, ax * bx + ay * by, ax * by - ay * bx) for (ax, ay), (bx, by) in zip(ways, ways[1:] + ways[:1], strict=True)]
 
 
 def _occurrences(pattern: Sides, ring: Sides) -> Iterator[int]:

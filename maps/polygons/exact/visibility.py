@@ -59,9 +59,7 @@ class Visibility:
     def turns(self) -> list[int]:
         """The corners at which a shortest path can turn: those with more than half a turn of free space."""
         edges, before = self.shooter.edges, self.shooter.before
-        return [
-            corner for corner, (bx, by) in enumerate(edges) if edges[before[corner]][0] * by - edges[before[corner]][1] * bx < 0
-        ]
+        return [corner for corner, (bx, by) in enumerate(edges) if edges[before[corner]][0] * by - edges[before[corner]][1] * bx < 0]
 
     def seen_turns(self, place: Place) -> list[int]:
         """Return which corners of `turns` a point sees."""

@@ -1,0 +1,109 @@
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from ial.membership import SetMembershipFilter
+from ial.odometer import Command, OdometerModel, OdometerRobot
+from ial.odometer.certificate import isolated
+from ial.odometer.hypotheses import hypotheses
+from ial.odometer.model import Chord
+from tests.maps.polygons.random_polygons import random_polygon
+from tests.odometer.scan import Scan
+from tests.odometer.worlds import CARDAN, HALL, L_SHAPE, SQUARE, robot
+
+LEFT = Fraction(90)
+
+
+def started(model: OdometerModel, driven: OdometerRobot) -> tuple[Chord, float, float] | None:
+    """What a robot knows after its first measured drive, that, and the second one; None if it does not come so far."""
+    driven.execute(Command(Fraction(0)))
+    known = SetMembershipFilter(model, "absorb")
+    first = driven.execute(Command(Fraction(180)))
+    known.update(Command(Fraction(180)), first)
+    second = driven.execute(Command(LEFT))
+    return (known.states, first, second) if isinstance(known.states, Chord) and second > 0.0 else None
+
+
+@pytest.mark.slow
+def test_candidates_are_those_of_a_scan_over_the_boundary() -> None:
+    compared = 0
+    for seed in range(12):
+        polygon = random_polygon(corners=7, seed=seed) if seed % 3 else L_SHAPE
+        model, scan = OdometerModel(polygon), Scan(polygon)
+        low_x, low_y, high_x, high_y = polygon.bounds
+        driven = robot(polygon, 100 + seed)
+        driven = OdometerRobot(polygon, driven.x, driven.y, 33.7 + seed) if seed else driven
+        begun = started(model, driven)
+        if begun is None:
+            continue
+        chord, first, second = begun
+        states = model.step(chord, Command(LEFT), second)
+        places = [(each.x, each.y, each.heading_rad) for each in hypotheses("", states)]  # type: ignore[arg-type]
+        found = scan.candidates(first, second, math.radians(90), 300)
+        near = 2e-2 * model.walls.size
+        for x, y, heading in found:  # nothing that the scan finds is missing
+            assert any(math.hypot(x - a, y - b) < near and math.cos(heading - c) > 0.99 for a, b, c in places), (
+                seed,
+                x,
+                y,
+                heading,
+                places,
+            )
+        for x, y, heading in places:  # and every candidate explains the readings
+            bx, by = x - second * math.cos(heading), y - second * math.sin(heading)
+            ax, ay = bx - first * math.sin(heading), by + first * math.cos(heading)
+            reach = scan.way(ax + 1e-7 * (bx - ax), ay + 1e-7 * (by - ay), heading - math.radians(90))[0], scan.way(bx, by, heading)[0]
+            assert abs(reach[0] - first) < 1e-4 * model.walls.size and abs(reach[1] - second) < 1e-4 * model.walls.size
+        compared += len(found)
+    assert compared > 20
+
+
+def test_cardans_curve_is_kept_as_a_chain_of_boxes_with_many_headings() -> None:
+    model = OdometerModel(CARDAN)
+    driven = OdometerRobot(CARDAN, -2.0, -0.5, math.degrees(math.atan2(1, -2)))
+    begun = started(model, driven)
+    assert begun is not None
+    chord, first, second = begun
+    assert second == pytest.approx(first)
+    states = model.step(chord, Command(LEFT), second)
+    assert states.holds(driven.x, driven.y, driven.heading_rad)
+    held = 0
+    for part in np.linspace(0.9, 1.15, 40).tolist():  # p_b = (−t, −t) and p_a = (−a, 0) with |w| = √5; p_c on the y axis at right angles
+        a = part + math.sqrt(5.0 - part**2)
+        along = (part + math.copysign(part, 1.0) * 0.0, part - a)
+        x, y = 0.0, -part + part * (a - part) / part
+        heading = math.atan2(y + part, part)
+        held += states.holds(x, y, heading)
+        assert abs(along[1]) > 0.0
+    assert held == 40
+
+
+def test_sliding_along_parallel_walls_keeps_the_heading() -> None:
+    model = OdometerModel(SQUARE)
+    begun = started(model, OdometerRobot(SQUARE, 1, 1, 90))
+    assert begun is not None
+    chord, _, second = begun
+    states = model.step(chord, Command(LEFT), second)
+    for heading in (0.0, 0.5 * math.pi, math.pi, -0.5 * math.pi):
+        x, y = 1.5 + 1.5 * math.cos(heading), 1.5 + 1.5 * math.sin(heading)
+        assert states.holds(x, y, heading) or states.holds(*_corner(heading), heading)
+
+
+def _corner(heading: float) -> tuple[float, float]:
+    """Where a robot ends that slides along a wall of the square to the corner in front of it."""
+    x, y = math.cos(heading), math.sin(heading)
+    return round(1.5 + 1.5 * (x + y)), round(1.5 + 1.5 * (y - x))
+
+
+def test_isolated_candidates_are_proved_to_be_single() -> None:
+    model = OdometerModel(HALL)
+    begun = started(model, OdometerRobot(HALL, 1, 1, 37))
+    assert begun is not None
+    chord, _, second = begun
+    way, turn = model.bounds.distance(second), model.bounds.turn(LEFT)
+    rows, origins = model.crossings(chord, turn, way)
+    assert len(rows) == len(origins) > 0
+    proved = isolated(model.walls, origins, chord.length, way, turn)
+    assert proved.all()
