@@ -73,7 +73,7 @@ States: TypeAlias = Configurations | Chord
 class OdometerModel(Model[States, Command, float]):
     """Sets of configurations of the robot R1 of O'Kane and LaValle (2007), with bounded errors, which the paper does not have.
 
-        A command is a turn and a drive, a reading the distance of the drive. The free space is closed: a robot slides along walls and passes
+        A command is a turn and a drive, a reading the distance of the drive. The free space is closed: a robot slides along walls and
         corners that it touches; where it cannot be told on which side it passes, both outcomes are kept.
 
     Parameters

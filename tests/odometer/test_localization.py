@@ -54,15 +54,18 @@ def test_the_truth_is_kept_with_errors_as_large_as_allowed() -> None:
         result = followed(model, robot(polygon, seed, bounds), 30)
         assert result.status in ("localized", "ambiguous")
         if result.status == "localized":
-            assert result.narrowest is not None and result.narrowest.width_m <= result.width_m
+            assert result.narrowest is not None
+            assert result.narrowest.width_m <= result.width_m
             narrow += result.narrowest.width_m < 0.1 * model.walls.size
     assert narrow >= 5
 
 
 def test_a_pentagon_leaves_exactly_five() -> None:
     result = localize(regular(5), OdometerRobot(regular(5), 0.2, 0.1, 17))
-    assert result.status == "symmetric" and len(result.hypotheses) == 5
-    assert result.candidates is not None and result.candidates > 5
+    assert result.status == "symmetric"
+    assert len(result.hypotheses) == 5
+    assert result.candidates is not None
+    assert result.candidates > 5
 
 
 def test_a_place_that_one_alone_has_tells_equal_rooms_apart() -> None:
@@ -102,7 +105,7 @@ def test_a_robot_of_another_map_is_rejected_or_lost() -> None:
 
 
 def test_a_robot_without_a_linear_odometer_cannot_be_localized() -> None:
-    with pytest.raises(ImpossibleError, match="section VI, robot R3.*give it a linear odometer"):
+    with pytest.raises(ImpossibleError, match=r"section VI, robot R3.*give it a linear odometer"):
         localize(SQUARE, OdometerRobot(SQUARE, 1, 1, 0), OdometerBounds(math.inf))
 
 

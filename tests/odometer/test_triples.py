@@ -32,7 +32,6 @@ def test_candidates_are_those_of_a_scan_over_the_boundary() -> None:
     for seed in range(12):
         polygon = random_polygon(corners=7, seed=seed) if seed % 3 else L_SHAPE
         model, scan = OdometerModel(polygon), Scan(polygon)
-        low_x, low_y, high_x, high_y = polygon.bounds
         driven = robot(polygon, 100 + seed)
         driven = OdometerRobot(polygon, driven.x, driven.y, 33.7 + seed) if seed else driven
         begun = started(model, driven)
@@ -55,7 +54,8 @@ def test_candidates_are_those_of_a_scan_over_the_boundary() -> None:
             bx, by = x - second * math.cos(heading), y - second * math.sin(heading)
             ax, ay = bx - first * math.sin(heading), by + first * math.cos(heading)
             reach = scan.way(ax + 1e-7 * (bx - ax), ay + 1e-7 * (by - ay), heading - math.radians(90))[0], scan.way(bx, by, heading)[0]
-            assert abs(reach[0] - first) < 1e-4 * model.walls.size and abs(reach[1] - second) < 1e-4 * model.walls.size
+            assert abs(reach[0] - first) < 1e-4 * model.walls.size
+            assert abs(reach[1] - second) < 1e-4 * model.walls.size
         compared += len(found)
     assert compared > 20
 
@@ -70,13 +70,10 @@ def test_cardans_curve_is_kept_as_a_chain_of_boxes_with_many_headings() -> None:
     states = model.step(chord, Command(LEFT), second)
     assert states.holds(driven.x, driven.y, driven.heading_rad)
     held = 0
-    for part in np.linspace(0.9, 1.15, 40).tolist():  # p_b = (−t, −t) and p_a = (−a, 0) with |w| = √5; p_c on the y axis at right angles
+    for part in np.linspace(0.9, 1.15, 40).tolist():  # p_b = (−t, −t), p_a = (−a, 0) with |w| = √5, and p_c = (0, c) at right angles
         a = part + math.sqrt(5.0 - part**2)
-        along = (part + math.copysign(part, 1.0) * 0.0, part - a)
-        x, y = 0.0, -part + part * (a - part) / part
-        heading = math.atan2(y + part, part)
-        held += states.holds(x, y, heading)
-        assert abs(along[1]) > 0.0
+        heading = math.atan2(a - part, part)  # of (t, a − t), which is at right angles to w = (a − t, −t)
+        held += states.holds(0.0, a - 2.0 * part, heading)
     assert held == 40
 
 

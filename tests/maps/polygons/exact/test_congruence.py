@@ -11,7 +11,7 @@ from tests.odometer.worlds import HALL, L_SHAPE, S_SHAPE, SQUARE, WORLDS, regula
 
 def laid_upon(one: Polygon, other: Polygon) -> int:
     """How many motions lay each corner upon a corner, by trying all pairs of corners of the outer rings."""
-    count, targets = 0, {each for each in other.rings[0]}
+    count, targets = 0, set(other.rings[0])
     (ax, ay), (bx, by) = one.outer[:2]
     square = (bx - ax) ** 2 + (by - ay) ** 2
     for at, (cx, cy) in enumerate(other.outer):
@@ -72,6 +72,7 @@ def test_a_reflection_is_none() -> None:
 
 def test_a_pentagon_has_five_near_rotations_and_one_exact() -> None:
     found = near_congruences(regular(5), regular(5), 1e-9)
-    assert len(found) == 5 and len(congruences(regular(5), regular(5))) == 1
+    assert len(found) == 5
+    assert len(congruences(regular(5), regular(5))) == 1
     assert sorted(round(math.degrees(each.turn_rad)) for each in found) == [-144, -72, 0, 72, 144]
     assert not any(each.exact for each in found)
