@@ -27,7 +27,7 @@ class Scan:
             into = ux * ey - uy * ex
             if into > 1e-12 * self.size:
                 far = ((ax - x) * ey - (ay - y) * ex) / into
-                part = ((ax - x) * uy - (ay - y) * ux) / -into
+                part = ((ax - x) * uy - (ay - y) * ux) / into
                 if far > 1e-9 * self.size and 0.0 <= part <= 1.0:
                     best = min(best, (far, number))
         return best

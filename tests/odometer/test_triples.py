@@ -1,4 +1,5 @@
 import math
+from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -13,17 +14,31 @@ from tests.maps.polygons.random_polygons import random_polygon
 from tests.odometer.scan import Scan
 from tests.odometer.worlds import CARDAN, HALL, L_SHAPE, SQUARE, robot
 
-LEFT = Fraction(90)
+
+@dataclass(frozen=True)
+class Begun:
+    """What a robot knows after its first measured drive, that, and the second one with the turns between."""
+
+    chord: Chord
+    first: float
+    second: float
+    last: Command
+    turn: float
 
 
-def started(model: OdometerModel, driven: OdometerRobot) -> tuple[Chord, float, float] | None:
-    """What a robot knows after its first measured drive, that, and the second one; None if it does not come so far."""
+def started(model: OdometerModel, driven: OdometerRobot) -> Begun | None:
+    """Drive back and across, to the right if not to the left; None if a corner forbids it."""
     driven.execute(Command(Fraction(0)))
     known = SetMembershipFilter(model, "absorb")
-    first = driven.execute(Command(Fraction(180)))
-    known.update(Command(Fraction(180)), first)
-    second = driven.execute(Command(LEFT))
-    return (known.states, first, second) if isinstance(known.states, Chord) and second > 0.0 else None
+    back = Command(Fraction(180))
+    first = driven.execute(back)
+    known.update(back, first)
+    for last, turn in ((Command(Fraction(90)), 90), (Command(Fraction(-180)), -90)):
+        second = driven.execute(last)
+        if second > 0.0:
+            return Begun(known.states, first, second, last, math.radians(turn)) if isinstance(known.states, Chord) else None
+        known.update(last, second)
+    return None
 
 
 @pytest.mark.slow
@@ -37,23 +52,19 @@ def test_candidates_are_those_of_a_scan_over_the_boundary() -> None:
         begun = started(model, driven)
         if begun is None:
             continue
-        chord, first, second = begun
-        states = model.step(chord, Command(LEFT), second)
+        first, second, turn = begun.first, begun.second, begun.turn
+        states = model.step(begun.chord, begun.last, second)
         places = [(each.x, each.y, each.heading_rad) for each in hypotheses("", states)]  # type: ignore[arg-type]
-        found = scan.candidates(first, second, math.radians(90), 300)
+        found = scan.candidates(first, second, turn, 200)
         near = 2e-2 * model.walls.size
         for x, y, heading in found:  # nothing that the scan finds is missing
             assert any(math.hypot(x - a, y - b) < near and math.cos(heading - c) > 0.99 for a, b, c in places), (
-                seed,
-                x,
-                y,
-                heading,
-                places,
+                *(seed, x, y, heading, places),
             )
         for x, y, heading in places:  # and every candidate explains the readings
             bx, by = x - second * math.cos(heading), y - second * math.sin(heading)
-            ax, ay = bx - first * math.sin(heading), by + first * math.cos(heading)
-            reach = scan.way(ax + 1e-7 * (bx - ax), ay + 1e-7 * (by - ay), heading - math.radians(90))[0], scan.way(bx, by, heading)[0]
+            ax, ay = bx - first * math.cos(heading - turn), by - first * math.sin(heading - turn)
+            reach = scan.way(ax + 1e-7 * (bx - ax), ay + 1e-7 * (by - ay), heading - turn)[0], scan.way(bx, by, heading)[0]
             assert abs(reach[0] - first) < 1e-4 * model.walls.size
             assert abs(reach[1] - second) < 1e-4 * model.walls.size
         compared += len(found)
@@ -65,9 +76,8 @@ def test_cardans_curve_is_kept_as_a_chain_of_boxes_with_many_headings() -> None:
     driven = OdometerRobot(CARDAN, -2.0, -0.5, math.degrees(math.atan2(1, -2)))
     begun = started(model, driven)
     assert begun is not None
-    chord, first, second = begun
-    assert second == pytest.approx(first)
-    states = model.step(chord, Command(LEFT), second)
+    assert begun.second == pytest.approx(begun.first)
+    states = model.step(begun.chord, begun.last, begun.second)
     assert states.holds(driven.x, driven.y, driven.heading_rad)
     held = 0
     for part in np.linspace(0.9, 1.15, 40).tolist():  # p_b = (−t, −t), p_a = (−a, 0) with |w| = √5, and p_c = (0, c) at right angles
@@ -81,8 +91,7 @@ def test_sliding_along_parallel_walls_keeps_the_heading() -> None:
     model = OdometerModel(SQUARE)
     begun = started(model, OdometerRobot(SQUARE, 1, 1, 90))
     assert begun is not None
-    chord, _, second = begun
-    states = model.step(chord, Command(LEFT), second)
+    states = model.step(begun.chord, begun.last, begun.second)
     for heading in (0.0, 0.5 * math.pi, math.pi, -0.5 * math.pi):
         x, y = 1.5 + 1.5 * math.cos(heading), 1.5 + 1.5 * math.sin(heading)
         assert states.holds(x, y, heading) or states.holds(*_corner(heading), heading)
@@ -98,9 +107,8 @@ def test_isolated_candidates_are_proved_to_be_single() -> None:
     model = OdometerModel(HALL)
     begun = started(model, OdometerRobot(HALL, 1, 1, 37))
     assert begun is not None
-    chord, _, second = begun
-    way, turn = model.bounds.distance(second), model.bounds.turn(LEFT)
-    rows, origins = model.crossings(chord, turn, way)
+    way, turn = model.bounds.distance(begun.second), model.bounds.turn(begun.last.turn_deg)
+    rows, origins = model.crossings(begun.chord, turn, way)
     assert len(rows) == len(origins) > 0
-    proved = isolated(model.walls, origins, chord.length, way, turn)
+    proved = isolated(model.walls, origins, begun.chord.length, way, turn)
     assert proved.all()
