@@ -56,6 +56,10 @@ class Scan:
                 x, y = ax + (step + 0.5) / steps * ex, ay + (step + 0.5) / steps * ey
                 row = {}
                 for key, heading in self.chords(x, y, first).items():
+                    _, _, fx, fy = self.walls[key[0]]
+                    leaves = ex * math.sin(heading) - ey * math.cos(heading), fx * math.sin(heading + turn) - fy * math.cos(heading + turn)
+                    if min(leaves) <= 0.0:
+                        continue  # into a wall
                     bx, by = x + first * math.cos(heading), y + first * math.sin(heading)
                     far, hit = self.way(bx, by, heading + turn)
                     if hit >= 0:
@@ -69,7 +73,8 @@ class Scan:
             for one, other in pairwise(column):
                 for key in one.keys() & other.keys():
                     (a, *place), (b, *_) = one[key], other[key]
-                    if (a < 0.0) != (b < 0.0):
+                    near_by = abs(place[2] - other[key][3]) < 0.03  # where the heading changes quickly, the middle is not near a root
+                    if near_by and (a < 0.0) != (b < 0.0):
                         share = a / (a - b)
                         near = [p + share * (q - p) for p, q in zip(place, other[key][1:], strict=True)]
                         found.append((near[0], near[1], near[2]))
