@@ -120,7 +120,7 @@ def localize(
     bounds
         By how much its odometers may be wrong; not at all by default, but for rounding.
     most_commands
-        After how many commands to give up.
+        After how many commands to give up, those to leave a corner and to find candidates not counted.
 
     Raises
     ------
@@ -154,7 +154,7 @@ class Session:
     robot
         Is driven.
     most_commands
-        After how many commands to give up.
+        After how many commands to give up, those to leave a corner and to find candidates not counted.
     """
 
     def __init__(self, models: Mapping[str, OdometerModel], robot: Executes, most_commands: int = MOST_COMMANDS) -> None:
@@ -182,6 +182,7 @@ class Session:
         candidates = self._open()
         if self._filter.model.empty(self._filter.states):
             return self._ended("rejected", (), candidates)
+        self._most += len(self._steps)
         found = self._pilot.found(self._filter.states)
         while not self._pilot.finished(found, self._filter.states):
             planned = self._pilot.commands(found, self._filter.states)
@@ -204,7 +205,7 @@ class Session:
             if self._drive(command, "for candidates"):
                 break
         for command in moves.across():
-            if len(self._steps) >= self._most or self._filter.model.empty(self._filter.states):
+            if self._filter.model.empty(self._filter.states):
                 break
             if self._drive(command, "for candidates"):
                 found = self._pilot.found(self._filter.states)

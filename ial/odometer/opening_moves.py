@@ -30,10 +30,20 @@ class OpeningMoves:
         return f"<OpeningMoves by {float(self.step_deg):g}°>"
 
     def back(self) -> Iterator[Command]:
-        """Yield the turns to try until the robot moves: back from the wall, which fails only in a corner, and then a little further."""
+        """Yield the turns to try until the robot moves: back from the wall, which fails only in a corner, and then all around.
+
+        Headings come in the order of van der Corput: halves, quarters, eighths of a turn, and so on. So a wide corner is left after few of
+        them, and the sharpest one before they end.
+        """
         yield Command(Fraction(180))
-        for _ in range(math.ceil(360 / self.step_deg)):
-            yield Command(self.step_deg)
+        at, count = Fraction(180), 2
+        while count * self.step_deg < 2 * 360:
+            for number in range(1, count, 2):
+                heading = Fraction(360 * number, count)
+                if heading != at:
+                    yield Command(heading - at)
+                    at = heading
+            count *= 2
 
     def across(self) -> Iterator[Command]:
         """Yield the turns to try after a drive: to the left, to the right, and, if a sharp corner forbids both, beside the way back."""
