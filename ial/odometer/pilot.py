@@ -21,6 +21,8 @@ _TRIED = 12  # directions that are tried for how narrow they leave the set
 _PAYS = 0.95
 _PATIENCE = 6  # commands that make nothing narrower, before it is called as narrow as it gets
 
+_BELIEVED = 3  # plans that have left as many hypotheses, before directions are not believed any more
+
 Planned = list[tuple[Command, str]]
 
 
@@ -43,6 +45,7 @@ class Pilot:
         self._part = 2.0 * (part + math.radians(turn))  # of a distance: by how much readings differ for certain
         self._best = math.inf
         self._vain = 0
+        self._count, self._unsplit = len(self._turns) ** 2, 0
         self._motions = cache(self._found_motions)
 
     def __repr__(self) -> str:
@@ -71,7 +74,7 @@ class Pilot:
         distances = self._predictions(found)
         expected = scores(distances, _GAP * self.size, self._part)
         best = int(np.argmin(expected))
-        if expected[best] < len(distances) - 0.5:
+        if self._trusts(len(found)) and expected[best] < len(distances) - 0.5:
             return [(Command(self._turns[best]), "by a direction")]
         if len(found) == 1 or not self.exact:
             return self._narrowing(found, states, distances)
@@ -85,6 +88,15 @@ class Pilot:
                 if way:
                     return [(each, "by a place that only one has") for each in way]
         return []
+
+    def _trusts(self, count: int) -> bool:
+        """Return whether predictions are to be believed: in doubles, a robot in a corner may see a way along a wall that is none.
+
+        Directions that have left as many hypotheses as there were, a few times in a row, are not asked for again until there are fewer.
+        """
+        self._unsplit = self._unsplit + 1 if count >= self._count else 0
+        self._count = count
+        return self._unsplit <= _BELIEVED or not self.exact
 
     def _polygon(self, hypothesis: Hypothesis):  # type: ignore[no-untyped-def]
         return self._models[hypothesis.world].walls.polygon

@@ -6,7 +6,7 @@ import pytest
 from ial.errors import ConfigError, ImpossibleError
 from ial.maps.polygons.polygon import Polygon
 from ial.odometer import Command, Localization, OdometerBounds, OdometerModel, OdometerRobot, Session, localize
-from tests.maps.polygons.random_polygons import random_polygon
+from tests.maps.polygons.random_polygons import random_polygon, rectilinear_polygon
 from tests.odometer.worlds import L_SHAPE, S_SHAPE, SERPENTINE, SQUARE, WORLDS, regular, ring, robot
 
 
@@ -72,6 +72,13 @@ def test_a_place_that_one_alone_has_tells_equal_rooms_apart() -> None:
     model = OdometerModel(SERPENTINE)
     reasons = {step.reason for seed in range(3) for step in followed(model, robot(SERPENTINE, 11 + 5 * seed)).steps}
     assert "by a place that only one has" in reasons
+
+
+def test_directions_that_do_not_split_are_not_asked_for_again_and_again() -> None:
+    columns = rectilinear_polygon(4, seed=5)  # from its corners, rays along walls are predicted that there are not
+    result = localize(columns, OdometerRobot(columns, 19, 100, 90))
+    assert result.status == "localized"
+    assert len(result.steps) < 15
 
 
 @pytest.mark.slow
