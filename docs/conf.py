@@ -33,7 +33,13 @@ napoleon_use_rtype = False  # what stands there is the name of a result, and no 
 html_theme = "sphinx_book_theme"
 html_title = "ial"
 # The bar at the side is made anew for each page; with the pages of every class in it, that took most of the time of the whole build.
-html_theme_options = {"show_toc_level": 2, "max_navbar_depth": 1, "collapse_navbar": True, "use_download_button": False, "use_fullscreen_button": False}
+html_theme_options = {
+    "show_toc_level": 2,
+    "max_navbar_depth": 1,
+    "collapse_navbar": True,
+    "use_download_button": False,
+    "use_fullscreen_button": False,
+}
 
 
 def draw_pictures(app):

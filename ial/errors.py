@@ -41,6 +41,10 @@ class StreamError(IalError):
     """A stream of observations that cannot be read, or that a closed world cannot produce."""
 
 
+class ImpossibleError(IalError):
+    """Something that no program can do, by a theorem that the message names."""
+
+
 class RoundingModeError(IalError):
     """The processor does not round to nearest, or flushes subnormal numbers to zero: no bound could be trusted.
 

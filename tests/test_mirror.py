@@ -57,6 +57,12 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
         "lidar/test_auto_outliers.py": ["search/outlier_budget"],
         "lidar/test_turns.py": ["search/pose_contractor"],
     },
+    "kernels and tables of the odometer robot, which are right or wrong only together": {
+        "odometer/test_model.py": ["advancing", "casting", "command", "configurations", "odometer_bounds", "wall_table"],
+        "odometer/test_triples.py": ["certificate", "chords"],
+        "odometer/test_localization.py": ["hypotheses", "opening_moves", "pilot", "splitting"],
+        "cli/odometer/test_run.py": ["drive", "../../odometer/example"],
+    },
     "a part that several files share, seen in what each of them does with it": {
         "bouncing/cells/test_groups.py": ["graph"],
         "bouncing/test_bump_log.py": ["bump_event"],
