@@ -6,6 +6,8 @@ from tests.test_house import ROOT, kept_files
 
 ACROSS = {  # tests of no single file, and what they are of
     "bouncing/test_margins.py": "what is rounded about walls and headings, from the polygon to the set",
+    "cli/compass/test_page.py": "the page about the compass robot, command by command",
+    "cli/odometer/test_page.py": "the page about the odometer robot, command by command",
     "cli/test_bad_input.py": "everything that a user can do wrong in the main job",
     "cli/bounce/test_pages.py": "the pages about the bouncing robot, command by command",
     "contractors/test_guard.py": "the rounding mode, at every public name",
