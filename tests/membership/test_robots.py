@@ -29,8 +29,10 @@ from ial.lidar.model import LidarModel
 from ial.maps.grids.floor_plan import floor_plan
 from ial.maps.polygons.exact.shooter import Shooter
 from ial.membership import ContractingModel, Lapses, Model, Recovery, SetMembershipFilter, Worlds
+from ial.odometer import Command, OdometerBounds, OdometerModel
 from tests.bouncing.truth import random_environment
 from tests.bouncing.worlds import cell_map, random_mask
+from tests.odometer import worlds as odometer_worlds
 
 States = frozenset[int]
 
@@ -263,3 +265,16 @@ def test_a_robot_with_a_compass_holds_the_truth(seed: int) -> None:
             (here,) = Shooter(polygon).shoot_all([way[step - 1]], [motion])
             assert (here.x, here.y) == way[step]
             assert InformationState.of(Shooter(polygon), state.pieces, [*state.points, here]) == state
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("bounds", [None, OdometerBounds(0.01, 0.5)], ids=["exact", "with errors"])
+def test_a_robot_with_odometers_holds_the_truth(bounds: OdometerBounds | None) -> None:
+    for name, seed in (("hall", 1), ("comb", 2), ("S", 3)):
+        robot = odometer_worlds.robot(odometer_worlds.WORLDS[name], seed, bounds)
+        robot.execute(Command(Fraction(0)))  # to the wall where the model begins
+        running = SetMembershipFilter(OdometerModel(odometer_worlds.WORLDS[name], bounds), "restart")
+        for turn in (180, 90, -135, 40, 160, 75):
+            command = Command(Fraction(turn))
+            assert running.update(command, robot.execute(command)) is None
+            assert running.states.holds(robot.x, robot.y, robot.heading_rad)
