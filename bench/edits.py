@@ -106,6 +106,9 @@ def main() -> int:
     edits = [edit for edit in listed if any(text in edit.path or text in edit.old for text in options.only)]
     if options.open:
         edits = [edit for edit in edits if not known(options.report).get(edit.cells, "").endswith("_ |")]
+    note(options.report, listed, {})
+    if not edits:
+        return 0
     with tempfile.TemporaryDirectory() as folder:
         tree, cache = Path(folder) / "ial", Path(folder) / "cache"
         copied(tree)
@@ -129,7 +132,7 @@ def main() -> int:
                 outcomes.append(outcome(tree, Path(own) if compiled else cache, edit.tests))
             file.write_text(text, encoding="utf-8")
             print(f"{number}/{len(edits)} {edit.cells} {outcomes[-1]}", flush=True)
-            note(options.report, listed, edit, outcomes[-1])
+            note(options.report, listed, {edit.cells: f"{edit.cells} {outcomes[-1]} |"})
     return int(any(each.startswith("**") for each in outcomes))
 
 
@@ -139,9 +142,9 @@ def known(report: Path) -> dict[str, str]:
     return {row.rpartition("|")[0].rpartition("|")[0] + "|": row for row in rows}
 
 
-def note(report: Path, edits: list[Edit], edit: Edit, outcome: str) -> None:
-    """Write into a report what became of an edit; what it says about edits that are listed no more is left out."""
-    rows = known(report) | {edit.cells: f"{edit.cells} {outcome} |"}
+def note(report: Path, edits: list[Edit], news: dict[str, str]) -> None:
+    """Write new rows into a report; what it says about edits that are listed no more is left out."""
+    rows = known(report) | news
     lines = [rows.get(each.cells, f"{each.cells} not tried |") for each in edits]
     tried = sum(not row.endswith(" not tried |") for row in lines)
     report.write_text(

@@ -32,7 +32,14 @@ napoleon_use_rtype = False  # what stands there is the name of a result, and no 
 
 html_theme = "sphinx_book_theme"
 html_title = "ial"
-html_theme_options = {"show_toc_level": 2, "use_download_button": False, "use_fullscreen_button": False}
+# The bar at the side is made anew for each page; with the pages of every class in it, that took most of the time of the whole build.
+html_theme_options = {
+    "show_toc_level": 2,
+    "max_navbar_depth": 1,
+    "collapse_navbar": True,
+    "use_download_button": False,
+    "use_fullscreen_button": False,
+}
 
 
 def draw_pictures(app):
@@ -52,6 +59,8 @@ def draw_pictures(app):
                 examples["run"](docs / name, section)
         draw_bounces((docs / "bouncing.md").read_text(encoding="utf-8"))
         draw_floor_plan((docs / "floor-plan.md").read_text(encoding="utf-8"))
+        for name in ("compass", "odometer"):
+            draw_shown((docs / f"{name}.md").read_text(encoding="utf-8"))
     finally:
         os.chdir(here)
 
@@ -72,6 +81,14 @@ def draw_floor_plan(page):
 
     exec(re.search(r"```python\n(.*?)```", page, re.DOTALL)[1], {})
     for command in re.findall(r"^\$ ial (bounce (?:build|simulate|show) .*)$", page, re.MULTILINE):
+        app([*shlex.split(command), "--overwrite"], standalone_mode=False)
+
+
+def draw_shown(page):
+    """Run the commands of a page that plan and show."""
+    from ial.cli.main import app
+
+    for command in re.findall(r"^\$ ial (\w+ (?:plan|show) .*)$", page, re.MULTILINE):
         app([*shlex.split(command), "--overwrite"], standalone_mode=False)
 
 

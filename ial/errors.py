@@ -33,8 +33,16 @@ class FilterError(IalError):
     """A filter that cannot be built, or a file that holds none."""
 
 
+class SequenceError(IalError):
+    """A localizing sequence that was not found, or a file that holds none."""
+
+
 class StreamError(IalError):
     """A stream of observations that cannot be read, or that a closed world cannot produce."""
+
+
+class ImpossibleError(IalError):
+    """Something that no program can do, by a theorem that the message names."""
 
 
 class RoundingModeError(IalError):

@@ -6,6 +6,8 @@ from tests.test_house import ROOT, kept_files
 
 ACROSS = {  # tests of no single file, and what they are of
     "bouncing/test_margins.py": "what is rounded about walls and headings, from the polygon to the set",
+    "cli/compass/test_page.py": "the page about the compass robot, command by command",
+    "cli/odometer/test_page.py": "the page about the odometer robot, command by command",
     "cli/test_bad_input.py": "everything that a user can do wrong in the main job",
     "cli/bounce/test_pages.py": "the pages about the bouncing robot, command by command",
     "contractors/test_guard.py": "the rounding mode, at every public name",
@@ -42,6 +44,7 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
         "bouncing/exports/test_archive.py": ["../filters/state_places"],
         "bouncing/filters/test_robust_building.py": ["robust_filter"],
         "bouncing/planning/test_angle_search.py": ["information_sets"],
+        "compass/test_point_phase.py": ["chase", "gathering"],
         "contractors/expressions/test_functions.py": ["whole_exponent"],
         "contractors/expressions/test_tape.py": ["machine"],
         "contractors/test_boxes.py": ["elementwise"],
@@ -56,6 +59,12 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
         "lidar/test_auto_outliers.py": ["search/outlier_budget"],
         "lidar/test_turns.py": ["search/pose_contractor"],
     },
+    "kernels and tables of the odometer robot, which are right or wrong only together": {
+        "odometer/test_model.py": ["advancing", "casting", "command", "configurations", "odometer_bounds", "wall_table"],
+        "odometer/test_triples.py": ["certificate", "chords"],
+        "odometer/test_localization.py": ["hypotheses", "opening_moves", "pilot", "splitting"],
+        "cli/odometer/test_run.py": ["drive", "../../odometer/example"],
+    },
     "a part that several files share, seen in what each of them does with it": {
         "bouncing/cells/test_groups.py": ["graph"],
         "bouncing/test_bump_log.py": ["bump_event"],
@@ -63,6 +72,7 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
         "bouncing/exports/test_c_source.py": ["exported_filter"],
         "bouncing/filters/test_bounce_filter.py": ["cycle_places", "setting"],
         "bouncing/rays/test_ray_model.py": ["ray_set"],
+        "cli/compass/test_plan.py": ["surroundings"],
         "contractors/combinators/test_combination.py": ["rows"],
         "contractors/expressions/test_constraint.py": ["../combinators/family"],
         "contractors/expressions/test_expression.py": ["variables"],

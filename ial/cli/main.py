@@ -8,7 +8,12 @@ from typer.core import TyperGroup
 
 from ial.cli.bounce import advise, build, calibrate, export, run, search_angle, show
 from ial.cli.bounce import simulate as bounce_simulate
+from ial.cli.compass import plan, verify
+from ial.cli.compass import run as compass_run
+from ial.cli.compass import show as compass_show
 from ial.cli.lidar import bounds, localize, replay, stream, warm, where
+from ial.cli.odometer import run as odometer_run
+from ial.cli.odometer import show as odometer_show
 from ial.cli.recordings import convert, info, kidnap, map_info, simulate
 from ial.cli.shell.outcome import exit_status
 from ial.cli.shell.terminal import say
@@ -33,6 +38,8 @@ app = typer.Typer(
 )
 maps = typer.Typer(no_args_is_help=True, help="Look at a map.")
 bounce = typer.Typer(no_args_is_help=True, help="Localize a robot that has a contact sensor and a clock.")
+compass = typer.Typer(no_args_is_help=True, help="Localize a robot that has a compass and a contact sensor.")
+odometer = typer.Typer(no_args_is_help=True, help="Localize a robot that measures its turns and how far it drives.")
 app.command("localize")(localize.localize)
 app.command("where")(where.where)
 app.command("bounds")(bounds.bounds)
@@ -53,6 +60,14 @@ bounce.command("search-angle")(search_angle.search_angle)
 bounce.command("show")(show.show)
 bounce.command("simulate")(bounce_simulate.simulate)
 app.add_typer(bounce, name="bounce")
+compass.command("plan")(plan.plan)
+compass.command("verify")(verify.verify)
+compass.command("run")(compass_run.run)
+compass.command("show")(compass_show.show)
+app.add_typer(compass, name="compass")
+odometer.command("run")(odometer_run.run)
+odometer.command("show")(odometer_show.show)
+app.add_typer(odometer, name="odometer")
 
 
 @app.command(

@@ -16,6 +16,9 @@ from ial.bouncing.cells.noisy_model import NoisyModel
 from ial.bouncing.cells.set_graph import SetGraph
 from ial.bouncing.rays.ray_model import RayModel
 from ial.bouncing.rays.real_robot import RealRobot
+from ial.compass.model import CompassModel
+from ial.compass.state import InformationState
+from ial.compass.verifier import follow
 from ial.datasets.recording import steps
 from ial.datasets.simulator import Lidar, SensorErrors, simulate
 from ial.datasets.walk import random_walk
@@ -24,9 +27,12 @@ from ial.lidar.configuration.config import LocalizerConfig
 from ial.lidar.evidence.beams import scan_beams
 from ial.lidar.model import LidarModel
 from ial.maps.grids.floor_plan import floor_plan
+from ial.maps.polygons.exact.shooter import Shooter
 from ial.membership import ContractingModel, Lapses, Model, Recovery, SetMembershipFilter, Worlds
+from ial.odometer import Command, OdometerBounds, OdometerModel
 from tests.bouncing.truth import random_environment
 from tests.bouncing.worlds import cell_map, random_mask
+from tests.odometer import worlds as odometer_worlds
 
 States = frozenset[int]
 
@@ -242,3 +248,33 @@ def test_a_bouncing_robot_with_real_geometry_holds_the_truth(seed: int) -> None:
         if bumps:
             boxes = model.places(running.states)
             assert ((boxes.lower[:, :2] <= [pose.x_m, pose.y_m]) & ([pose.x_m, pose.y_m] <= boxes.upper[:, :2])).all(axis=1).any()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(4))
+def test_a_robot_with_a_compass_holds_the_truth(seed: int) -> None:
+    """Without any reading: exactly the places of robots from everywhere, and each of them."""
+    polygon = random_environment(seed).polygons[0]
+    motions = [(1, 0), (2, 3), (-5, 1), (0, -1), (-1, -1)]
+    running = SetMembershipFilter(CompassModel(polygon))
+    ways = [follow(polygon, corner, motions) for ring in polygon.rings for corner in ring]
+    for step, motion in enumerate(motions, 1):
+        assert running.update(motion, None) is None
+        state = InformationState.of(Shooter(polygon), running.states.pieces, running.states.points)
+        for way in ways:
+            (here,) = Shooter(polygon).shoot_all([way[step - 1]], [motion])
+            assert (here.x, here.y) == way[step]
+            assert InformationState.of(Shooter(polygon), state.pieces, [*state.points, here]) == state
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("bounds", [None, OdometerBounds(0.01, 0.5)], ids=["exact", "with errors"])
+def test_a_robot_with_odometers_holds_the_truth(bounds: OdometerBounds | None) -> None:
+    for name, seed in (("hall", 1), ("comb", 2), ("S", 3)):
+        robot = odometer_worlds.robot(odometer_worlds.WORLDS[name], seed, bounds)
+        robot.execute(Command(Fraction(0)))  # to the wall where the model begins
+        running = SetMembershipFilter(OdometerModel(odometer_worlds.WORLDS[name], bounds), "restart")
+        for turn in (180, 90, -135, 40, 160, 75):
+            command = Command(Fraction(turn))
+            assert running.update(command, robot.execute(command)) is None
+            assert running.states.holds(robot.x, robot.y, robot.heading_rad)

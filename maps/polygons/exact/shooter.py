@@ -5,8 +5,10 @@ that it would cross, and a corner at which no free space is ahead. There are no 
 walls that lie on one line, and leaving a reflex corner all follow from these two (O'Kane and LaValle 2007, section III; closed rays).
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +16,8 @@ import numpy.typing as npt
 from ial.contractors.margins import ROUNDINGS
 from ial.maps.polygons.exact.rational import Rational, rational
 from ial.maps.polygons.polygon import ExactPoint, Polygon
+
+_LEAST, _MOST = 2.0**-500, 2.0**500  # of a component of a direction that a double holds with all its digits, and its square nearly
 
 FloatArray = npt.NDArray[np.float64]
 Direction = tuple[int | Rational, int | Rational]
@@ -83,6 +87,18 @@ class Shooter:
     def __len__(self) -> int:
         return len(self.corners)
 
+    @cached_property
+    def touched(self) -> dict[int, list[int]]:
+        """For each corner of a ring that touches another ring inside of its edges: which edges. Other corners are left out."""
+        if not self.polygon.holes:
+            return {}
+        found: dict[int, list[int]] = {}
+        for corner, (x, y) in enumerate(self.corners):
+            for edge, ((ax, ay), (ex, ey)) in enumerate(zip(self.corners, self.edges, strict=True)):
+                if ex * (y - ay) == ey * (x - ax) and 0 < ex * (x - ax) + ey * (y - ay) < ex * ex + ey * ey:
+                    found.setdefault(corner, []).append(edge)
+        return found
+
     def corner(self, number: int) -> BoundaryPoint:
         """Return a corner, which has the number of the edge that begins there."""
         return BoundaryPoint(*self.corners[number], number, True)
@@ -109,23 +125,39 @@ class Shooter:
         direction
             Where it drives, as a vector of any length but 0.
         """
-        px, py = start
-        ux, uy = direction
-        dx, dy = _unit(ux, uy)
+        return self.shoot_all([start], [direction])[0]
+
+    def shoot_all(self, starts: Sequence[Sequence[Rational]], directions: Sequence[Direction]) -> list[BoundaryPoint]:
+        """Return where points stop, as `shoot` does for each start and its direction; much faster for many of them."""
         mx, my = self._middle
-        x, y = self._x - float(px - mx), self._y - float(py - my)
+        units = np.array([_unit(*direction) for direction in directions]).reshape(-1, 2)
+        places = np.array([(float(px - mx), float(py - my)) for px, py in starts]).reshape(-1, 2)
+        x, y = self._x - places[:, :1], self._y - places[:, 1:]
+        dx, dy = units[:, :1], units[:, 1:]
         aside, ahead = dx * y - dy * x, dx * x + dy * y
         sides = np.sign(aside).astype(np.int8)
-        for corner in np.flatnonzero(np.abs(aside) < self._doubt).tolist():
-            sides[corner] = self.side(corner, start, direction)
+        on_line: list[list[int]] = [[] for _ in starts]
+        for ray, corner in np.argwhere(np.abs(aside) < self._doubt).tolist():
+            sides[ray, corner] = self.side(corner, starts[ray], directions[ray])
+            if sides[ray, corner] == 0:
+                on_line[ray].append(corner)
+        crossed: list[list[int]] = [[] for _ in starts]
+        for ray, edge in self._first(sides, aside, ahead):
+            crossed[ray].append(edge)
+        return [self._stop(*each) for each in zip(starts, directions, on_line, crossed, strict=True)]
+
+    def _stop(self, start: Sequence[Rational], direction: Direction, on_line: list[int], crossed: list[int]) -> BoundaryPoint:
+        """Return where a point stops, if some corners lie on the line of its ray, and the ray may first cross one of some edges."""
+        px, py = start
+        ux, uy = direction
         best: BoundaryPoint | None = None
         way: Rational | None = None
-        for corner in np.flatnonzero(sides == 0).tolist():  # first, so that the end of a wall that is hit is a corner
+        for corner in on_line:  # first, so that the end of a wall that is hit is a corner
             cx, cy = self.corners[corner]
             further = ((cx - px) * ux + (cy - py) * uy) / rational(ux * ux + uy * uy)
             if further >= 0 and (way is None or further < way) and not self.is_open(corner, ux, uy):
                 best, way = BoundaryPoint(cx, cy, corner, True), further
-        for edge in self._first(np.flatnonzero((sides < 0) & (sides[self._next] > 0)), aside, ahead):
+        for edge in crossed:
             (cx, cy), (ex, ey) = self.corners[edge], self.edges[edge]
             further = ((cx - px) * ey - (cy - py) * ex) / rational(ux * ey - uy * ex)
             if further >= 0 and (way is None or further < way):
@@ -134,16 +166,21 @@ class Shooter:
             raise AssertionError("a ray that starts in a bounded polygon ends")
         return best
 
-    def _first(self, crossed: npt.NDArray[np.intp], aside: FloatArray, ahead: FloatArray) -> list[int]:
-        """Return those of some crossed edges that may be the first one ahead, by doubles: how far corners are aside and ahead."""
-        after = self._next[crossed]
-        across, one, other = np.abs(aside[crossed]) + np.abs(aside[after]), ahead[crossed], ahead[after]
+    def _first(self, sides: npt.NDArray[np.int8], aside: FloatArray, ahead: FloatArray) -> list[tuple[int, int]]:
+        """Return pairs of a ray and an edge that may be the first one it crosses, by doubles: how far corners are aside and ahead."""
+        ray, edge = np.nonzero((sides < 0) & (sides[:, self._next] > 0))
+        after = self._next[edge]
+        across = np.abs(aside[ray, edge]) + np.abs(aside[ray, after])
+        one, other = ahead[ray, edge], ahead[ray, after]
         doubt = self._doubt
-        part = np.abs(aside[crossed]) / np.maximum(across, doubt)
+        part = np.abs(aside[ray, edge]) / np.maximum(across, doubt)
         middle, reach = one + part * (other - one), np.abs(other - one) * np.minimum(2.0 * doubt / np.maximum(across, doubt), 1.0) + doubt
         least, most = np.maximum(middle - reach, np.minimum(one, other) - doubt), np.minimum(middle + reach, np.maximum(one, other) + doubt)
-        nearest = most[least >= 0.0].min(initial=np.inf)
-        return [int(each) for each in crossed[(most >= 0.0) & (least <= nearest)]]
+        nearest = np.full(len(sides), np.inf)
+        sure = least >= 0.0
+        np.minimum.at(nearest, ray[sure], most[sure])
+        kept = (most >= 0.0) & (least <= nearest[ray])
+        return list(zip(ray[kept].tolist(), edge[kept].tolist(), strict=True))
 
     def is_open(self, corner: int, ux: int | Rational, uy: int | Rational) -> bool:
         """Return whether a point at a corner can leave it in a direction, along one of its walls included."""
@@ -173,8 +210,13 @@ def _links(sizes: Sequence[int]) -> tuple[list[int], list[int]]:
 
 def _unit(ux: int | Rational, uy: int | Rational) -> tuple[float, float]:
     """Return a direction as doubles, of about length 1; whole numbers may be too large for a double."""
-    exact_x, exact_y = rational(ux), rational(uy)
-    largest = max(abs(exact_x), abs(exact_y))
-    x, y = float(exact_x / largest), float(exact_y / largest)
-    length = float(np.hypot(x, y))
+    try:
+        x, y = float(ux), float(uy)
+    except OverflowError:
+        x = y = math.inf
+    if not _LEAST < max(abs(x), abs(y)) < _MOST:
+        exact_x, exact_y = rational(ux), rational(uy)
+        largest = max(abs(exact_x), abs(exact_y))
+        x, y = float(exact_x / largest), float(exact_y / largest)
+    length = math.hypot(x, y)
     return x / length, y / length

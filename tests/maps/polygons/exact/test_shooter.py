@@ -132,3 +132,27 @@ def test_what_lies_closer_together_than_doubles_tell_is_decided_exactly() -> Non
 def test_directions_may_be_larger_than_doubles() -> None:
     hit = Shooter(L).shoot((Fraction(1), Fraction(1)), (10**400, 10**400 - 1))
     assert hit.place == end_of_ray(L, (Fraction(1), Fraction(1)), (10**400, 10**400 - 1))
+
+
+def test_of_walls_closer_together_than_doubles_tell_the_first_one_stops_it() -> None:
+    """One spike comes from above, and ends just below the ray; behind it one from below ends just above the ray."""
+    chooser, tiny = random.Random(3), Fraction(1, 10**18)
+    for _ in range(60):
+        ux, uy = 40, chooser.randrange(10, 30)
+        start = Fraction(chooser.randrange(-20, 0), 10), Fraction(chooser.randrange(5), 10)
+        way, gap = Fraction(chooser.randrange(30, 90), 1001), tiny * chooser.choice([2, 3, 7])
+        (x0, y0), (x1, y1) = ((start[0] + part * ux, start[1] + part * uy) for part in (way, way + gap))
+        one, other = (Fraction(chooser.randrange(1, 400), 97) for _ in range(2))
+        above = [(x0 + one + 1, Fraction(9)), (x0, y0 - tiny), (x0 + one, Fraction(9))]
+        below = [(x1 - other - 1, Fraction(-3)), (x1, y1 + tiny), (x1 - other, Fraction(-3))]
+        polygon = Polygon(((-12, -3), *below, (12, -3), (12, 9), *above, (-12, 9)))  # type: ignore[arg-type]
+        assert Shooter(polygon).shoot(start, (ux, uy)).place == end_of_ray(polygon, start, (ux, uy))
+
+
+def test_a_wall_nearly_along_the_ray_does_not_hide_the_one_before_it() -> None:
+    """Doubles cannot tell where the slanted wall is crossed; the first place where that may be lies before the wall that is hit."""
+    slope, crossed = Fraction(1, 10**10), Fraction(20005, 10000)
+    slanted = ((Fraction(3, 2), 1 + slope * (Fraction(3, 2) - crossed)), (3, 1 + slope * (3 - crossed)))
+    spike = ((2 + Fraction(1, 10**5), 3), (2, 1 - slope / 5000), (2, 3))
+    polygon = Polygon(((0, 0), (3, 0), (3, Fraction(9, 10)), *slanted, (3, 3), *spike, (0, 3)))  # type: ignore[arg-type]
+    assert Shooter(polygon).shoot((Fraction(0), Fraction(1)), (1, 0)).place == (2, 1)

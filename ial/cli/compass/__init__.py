@@ -1,0 +1,1 @@
+"""The commands about robots with a compass: `ial compass`."""

@@ -1,0 +1,1 @@
+"""`ial odometer …`: a robot with a linear and an angular odometer."""

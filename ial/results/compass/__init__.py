@@ -1,0 +1,1 @@
+"""Pictures of robots with a compass."""
