@@ -39,6 +39,16 @@ ACROSS = {  # tests of no single file, and what they are of
 
 UNMIRRORED = {  # files without a test of their own, by the reason, and the test that they have; a file that gets its own leaves this list
     "a step inside one other file which nothing else calls: judged by that file's twin or oracle": {
+        "active/test_exploration.py": [
+            "decision",
+            "planners/entropy",
+            "planners/hops",
+            "planners/nearest_frontier",
+            "planners/random_walk",
+            "planners/route",
+            "planners/two_stage",
+            "robot",
+        ],
         "bouncing/automata/test_determinization.py": ["subset"],
         "bouncing/cells/test_noisy_map.py": ["cell_ways"],
         "bouncing/exports/test_archive.py": ["../filters/state_places"],

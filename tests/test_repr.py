@@ -18,7 +18,20 @@ from ial.pose import Pose
 from ial.results import Enclosure, EnclosuresFile, EventsFile, Picture, RecordingFile, ResultFolder, Summary, TrajectoryFile
 from ial.study import Containment, Domain, Obstacles
 
-ROOMS = ("contractors", "maps", "datasets", "lidar", "bouncing", "compass", "membership", "odometer", "particles", "results", "study")
+ROOMS = (
+    "active",
+    "contractors",
+    "maps",
+    "datasets",
+    "lidar",
+    "bouncing",
+    "compass",
+    "membership",
+    "odometer",
+    "particles",
+    "results",
+    "study",
+)
 
 
 def classes() -> list[type]:
