@@ -1,8 +1,11 @@
 """Whole plans: proved by the verifier, and carried out from corners, critical points and everywhere else by its exact rays."""
 
 import random
+import subprocess
+import sys
 from fractions import Fraction
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 
@@ -118,3 +121,21 @@ def test_where_none_is_found_it_says_so_and_claims_nothing(monkeypatch: pytest.M
 def test_walls_in_directions_of_too_many_bits_are_refused() -> None:
     with pytest.raises(MapError, match="wall 2 has a direction of 69 bits"):
         localizing_sequence(Polygon(((0, 0), (4, 0), (4 + Fraction(1, 2**67), 3), (0, 3))))  # type: ignore[arg-type]
+
+
+@pytest.mark.slow
+def test_the_rational_numbers_of_python_lead_to_the_same_sequence() -> None:
+    pytest.importorskip("gmpy2")
+    program = """
+import sys
+sys.modules["gmpy2"] = None
+from ial.compass import localizing_sequence
+from tests.maps.polygons.random_polygons import random_polygon
+for seed in range(3):
+    made = localizing_sequence(random_polygon(14, seed))
+    print(made.directions, made.sizes, *map(str, made.end))
+"""
+    root = Path(__file__).resolve().parents[2]
+    told = subprocess.run([sys.executable, "-c", program], cwd=root, check=True, capture_output=True, text=True).stdout.splitlines()
+    made = [localizing_sequence(random_polygon(14, seed)) for seed in range(3)]
+    assert told == [f"{each.directions} {each.sizes} {each.end[0]} {each.end[1]}" for each in made]
