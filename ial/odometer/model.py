@@ -73,31 +73,30 @@ States: TypeAlias = Configurations | Chord
 class OdometerModel(Model[States, Command, float]):
     """Sets of configurations of the robot R1 of O'Kane and LaValle (2007), with bounded errors, which the paper does not have.
 
-        A command is a turn and a drive, a reading the distance of the drive. The free space is closed: a robot slides along walls and
-        corners that it touches; where it cannot be told on which side it passes, both outcomes are kept.
+    A command is a turn and a drive, a reading the distance of the drive. The free space is closed: a robot slides along walls and
+    corners that it touches; where it cannot be told on which side it passes, both outcomes are kept.
 
     Parameters
     ----------
-        polygon
-            The free space.
-        bounds
-            By how much the odometers may be wrong.
-        budget
-            How many boxes a step tries at most; beyond, boxes stay as wide as they are.
+    polygon
+        The free space.
+    bounds
+        By how much the odometers may be wrong.
+    budget
+        How many boxes a step tries at most; beyond, boxes stay as wide as they are.
 
     Examples
     --------
-        >>> from fractions import Fraction
-        >>> from ial.maps.polygons.exact.congruence import Congruence, near_congruences
-    from ial.maps.polygons.polygon import Polygon
-        >>> from ial.membership import SetMembershipFilter
-        >>> from ial.odometer import Command, OdometerModel
-        >>> model = OdometerModel(Polygon(((0, 0), (4, 0), (4, 3), (0, 3))))
-        >>> known = SetMembershipFilter(model, "absorb")
-        >>> for turn, reading in ((180, 3.75), (90, 2.0)):
-        ...     rejection = known.update(Command(Fraction(turn)), reading)
-        >>> len(known.states) > 0
-        True
+    >>> from fractions import Fraction
+    >>> from ial.maps import Polygon
+    >>> from ial.membership import SetMembershipFilter
+    >>> from ial.odometer import Command, OdometerModel
+    >>> model = OdometerModel(Polygon(((0, 0), (4, 0), (4, 3), (0, 3))))
+    >>> known = SetMembershipFilter(model, "absorb")
+    >>> for turn, reading in ((180, 3.75), (90, 2.0)):
+    ...     rejection = known.update(Command(Fraction(turn)), reading)
+    >>> len(known.states) > 0
+    True
     """
 
     def __init__(self, polygon: Polygon, bounds: OdometerBounds | None = None, budget: int | None = None) -> None:
