@@ -15,6 +15,7 @@ from ial.maps.polygons.exact.shortest_path import ShortestPaths
 _DIRECTION_BITS = 24
 _TILTS = (0.0, 2.0**-18, -(2.0**-18), 2.0**-8, -(2.0**-8))
 _MORE_TILTS = (2.0**-5, -(2.0**-5), 2.0**-3, -(2.0**-3), 0.5, -0.5, 2.0, -2.0)
+_FINE = 1e-10
 _MOST_TRIES = 60  # places of all points from which motions are tried
 
 Points = tuple[BoundaryPoint, ...]
@@ -60,7 +61,7 @@ class Chase:
         queue: list[tuple[float, float, int, Points, Pair, list[Direction]]] = []
         for pair in pairs:
             heappush(queue, (*self._promise(state.points, pair, 0), next(order), state.points, pair, []))
-        seen = {key(state.points)}
+        seen = {key(state.points, self._shooter)}
         for _ in range(_MOST_TRIES * (1 + 4 * self._wide)):
             if not queue:
                 return None
@@ -71,8 +72,8 @@ class Chase:
             if min(left) < len(points):
                 return [*directions, ways[left.index(min(left))]]
             for way, moved in zip(ways, images, strict=True):
-                if key(moved) not in seen:
-                    seen.add(key(moved))
+                if key(moved, self._shooter) not in seen:
+                    seen.add(key(moved, self._shooter))
                     longer = [*directions, way]
                     heappush(queue, (*self._promise(moved, pair, len(longer)), next(order), moved, pair, longer))
         return None
@@ -104,6 +105,7 @@ def edges_of(shooter: Shooter, point: BoundaryPoint) -> set[int]:
     return {point.edge, shooter.before[point.edge]} if point.corner else {point.edge}
 
 
-def key(points: Points) -> tuple[tuple[float, float], ...]:
-    """Return what tells places of points apart, but for roundings."""
-    return tuple((round(float(point.x), 6), round(float(point.y), 6)) for point in points)
+def key(points: Points, shooter: Shooter) -> tuple[tuple[int, int], ...]:
+    """Return what tells places of points apart, but for tiny parts of the size of the environment."""
+    fine = _FINE * shooter.size_m
+    return tuple((round(float(point.x) / fine), round(float(point.y) / fine)) for point in points)

@@ -61,7 +61,7 @@ class Gathering:
         """
         order = count()
         queue: list[tuple[float, int, Points, list[Direction]]] = [(0.0, next(order), state.points, [])]
-        seen = {key(state.points)}
+        seen = {key(state.points, self._shooter)}
         for _ in range(_TRIES):
             if not queue:
                 return None
@@ -74,7 +74,7 @@ class Gathering:
                 fewest = np.flatnonzero(sizes == sizes.min())
                 return [*taken, ways[int(fewest[costs[fewest].argmin()])]]
             for at in np.argsort(costs, kind="stable")[:_KEPT].tolist():
-                name = key(images[at])
+                name = key(images[at], self._shooter)
                 if name not in seen:
                     seen.add(name)
                     heappush(queue, (len(taken) + float(costs[at]), next(order), images[at], [*taken, ways[at]]))

@@ -23,6 +23,8 @@ _FORMAT, _VERSION = "ial localizing sequence", 1
 _LARGEST_FILE = 2**26  # bytes
 _NUMBER = re.compile(r"-?\d{1,4000}(/\d{1,4000})?", re.ASCII)
 
+_KEYS = {"format", "version", "polygon", "boundary", "steps", "end"}
+
 
 def write_sequence(sequence: Sequence, path: str | Path) -> None:
     """Write a localizing sequence with its certificate.
@@ -53,8 +55,10 @@ def read_sequence(path: str | Path) -> Sequence:
     path = Path(path)
     try:
         if path.stat().st_size > _LARGEST_FILE:
-            raise SequenceError(f"{path}: the file is larger than {_LARGEST_FILE} bytes; a localizing sequence is not so long")
-        content = json.loads(path.read_text(encoding="utf-8"))
+            raise SequenceError(f"the file is larger than {_LARGEST_FILE} bytes; a localizing sequence is not so long")
+        content = json.loads(path.read_text(encoding="utf-8"), object_pairs_hook=_once)
+    except SequenceError as error:
+        raise SequenceError(f"{path}: {error}") from None
     except OSError as error:
         raise SequenceError(f"{path}: the sequence cannot be read ({error.strerror or error}); check the path") from None
     except (ValueError, RecursionError) as error:
@@ -63,6 +67,13 @@ def read_sequence(path: str | Path) -> Sequence:
         return _sequence(content)
     except SequenceError as error:
         raise SequenceError(f"{path}: {error}") from None
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    held = dict(pairs)
+    if len(held) < len(pairs):
+        raise SequenceError("a name stands twice in one part of it, so that readers may differ in what it says; plan the sequence again")
+    return held
 
 
 def _record(sequence: Sequence) -> dict[str, Any]:
@@ -87,12 +98,14 @@ def _digest(before: str, *content: Any) -> str:
 def _sequence(content: Any) -> Sequence:
     if not isinstance(content, dict) or content.get("format") != _FORMAT:
         raise SequenceError("this is no localizing sequence; write one with `ial compass plan`")
-    if content.get("version") != _VERSION:
+    if type(content.get("version")) is not int or content["version"] != _VERSION:
         raise SequenceError(f"the sequence has version {content.get('version')!r}, and this program reads {_VERSION}; plan it again")
     try:
         polygons = parse_polygon_json(json.dumps({"polygons": [content.get("polygon")]}))
     except MapError as error:
         raise SequenceError(f"step 0: {error}") from None
+    if unknown := sorted(content.keys() - _KEYS):
+        raise SequenceError(f"it has {unknown[0][:40]!r}, which no sequence has; plan it again")
     steps, boundary, end = content.get("steps"), content.get("boundary"), content.get("end")
     if not isinstance(steps, list) or not isinstance(boundary, dict) or not isinstance(end, dict):
         raise SequenceError('the sequence has no list "steps", or no "boundary", or no "end"; plan it again')

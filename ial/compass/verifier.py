@@ -107,7 +107,7 @@ def verify(claim: Claim, progress: Callable[[int, int], None] | None = None) -> 
     if last != claim.end:
         raise SequenceError(
             f"step {steps}: the robot ends at ({float(last[0]):g}, {float(last[1]):g}), and the end that is claimed is "
-            f"({float(claim.end[0]):g}, {float(claim.end[1]):g}), which is not exactly that"
+            f"({_short(claim.end[0])}, {_short(claim.end[1])}), which is not exactly that"
         )
 
 
@@ -243,3 +243,11 @@ def _compare(step: int, places: Places, claimed: tuple[int, int]) -> None:
         raise SequenceError(
             f"step {step}: {pieces} pieces of walls and {points} points are possible then, and {claimed[0]} and {claimed[1]} are claimed"
         )
+
+
+def _short(number: Fraction) -> str:
+    """Return about what a number is; those of a file may be too large for a double."""
+    try:
+        return f"{float(number):g}"
+    except OverflowError:
+        return f"{'-' * (number < 0)}1e{len(str(abs(int(number)))) - 1} or so"

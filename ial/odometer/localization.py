@@ -1,7 +1,7 @@
 """`localize`: drives a robot with two odometers until it is known where it is, up to symmetry."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Literal, Protocol
@@ -104,6 +104,7 @@ def localize(
     robot: Executes,
     bounds: OdometerBounds | None = None,
     most_commands: int = MOST_COMMANDS,
+    progress: Callable[[int], object] | None = None,
 ) -> Localization:
     """Drive a robot until it is localized up to symmetry.
 
@@ -121,6 +122,8 @@ def localize(
         By how much its odometers may be wrong; not at all by default, but for rounding.
     most_commands
         After how many commands to give up, those to leave a corner and to find candidates not counted.
+    progress
+        Called after each command with their number.
 
     Raises
     ------
@@ -141,7 +144,7 @@ def localize(
     if most_commands < 4:
         raise ConfigError(f"{most_commands} commands do not localize a robot; allow at least 4")
     models = {name: OdometerModel(polygon, bounds) for name, polygon in worlds.items()}
-    return Session(models, robot, most_commands).run()
+    return Session(models, robot, most_commands, progress).run()
 
 
 class Session:
@@ -155,9 +158,18 @@ class Session:
         Is driven.
     most_commands
         After how many commands to give up, those to leave a corner and to find candidates not counted.
+    progress
+        Called after each command with their number.
     """
 
-    def __init__(self, models: Mapping[str, OdometerModel], robot: Executes, most_commands: int = MOST_COMMANDS) -> None:
+    def __init__(
+        self,
+        models: Mapping[str, OdometerModel],
+        robot: Executes,
+        most_commands: int = MOST_COMMANDS,
+        progress: Callable[[int], object] | None = None,
+    ) -> None:
+        self._progress = progress
         self._models = dict(models)
         self._robot = robot
         self._most = most_commands
@@ -218,6 +230,8 @@ class Session:
         reading = self._robot.execute(command)
         self._filter.update(command, reading)
         self._steps.append(Step(command, reading, None, reason))
+        if self._progress is not None:
+            self._progress(len(self._steps))
         self._trail.append(())
         return reading >= command.ahead_m or (math.isinf(command.ahead_m) and reading > 0.0)
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from ial.compass.example import example_polygon
 from ial.compass.planning import localizing_sequence
 from ial.compass.primitive import MOST_BITS, primitive
 from ial.compass.segment_phase import Order
@@ -139,3 +140,9 @@ for seed in range(3):
     told = subprocess.run([sys.executable, "-c", program], cwd=root, check=True, capture_output=True, text=True).stdout.splitlines()
     made = [localizing_sequence(random_polygon(14, seed)) for seed in range(3)]
     assert told == [f"{each.directions} {each.sizes} {each.end[0]} {each.end[1]}" for each in made]
+
+
+@pytest.mark.parametrize("order", ["greedy", "paper"])
+@pytest.mark.parametrize("scale", [Fraction(1, 10**9), Fraction(10**9)])
+def test_tiny_and_huge_environments_have_sequences_too(order: Order, scale: Fraction) -> None:
+    verify(localizing_sequence(Polygon(tuple((scale * x, scale * y) for x, y in example_polygon().outer)), order))

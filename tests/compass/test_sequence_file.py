@@ -114,3 +114,21 @@ def test_200_altered_files_are_all_refused_at_their_step(path: Path) -> None:
     for _ in range(200):
         path.write_text(whole)
         assert re.search(r": step \d+: ", refusal(path, lambda content: altered(content, chooser)))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ('"version": 1', '"version": true', "version True"),
+        ('"version": 1', '"version": 1.0', "version 1.0"),
+        ('"version": 1', '"version": 1, "note": "mine"', "it has 'note', which no sequence has"),
+        ('"version": 1', '"version": 1, "version": 1', "a name stands twice"),
+        ('{"direction"', '{"direction": ["7", "7"], "direction"', "a name stands twice"),
+    ],
+)
+def test_what_readers_may_take_in_different_ways_is_refused(path: Path, old: str, new: str, said: str) -> None:
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new, 1))
+    with pytest.raises(SequenceError, match=said):
+        read_sequence(path)

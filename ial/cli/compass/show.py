@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from ial.cli.compass.surroundings import place
-from ial.cli.compass.verify import SequencePath
+from ial.cli.compass.verify import SequencePath, prove
 from ial.cli.shell.options import Overwrite
 from ial.cli.shell.outputs import check_outputs
 from ial.cli.shell.terminal import say, shown
@@ -31,7 +31,7 @@ def show(
     ] = None,
     overwrite: Overwrite = False,
 ) -> None:
-    """Draw what a sequence does."""
+    """Verify a sequence, and draw what it does."""
     from ial.compass.sequence_file import read_sequence
 
     check_outputs([out], [sequence_path], overwrite)
@@ -40,6 +40,7 @@ def show(
     if start and what != "traces":
         raise ConfigError("--start is for --what traces; leave it out, or draw traces")
     sequence = read_sequence(sequence_path)
+    prove(sequence, sequence_path)
     if what == "states":
         from ial.results.compass.state_picture import draw_states
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ial.cli.bounce.options import number
+from ial.cli.shell.terminal import counting
 from ial.errors import ConfigError, MapError
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ class Drive:
         from ial.odometer import OdometerBounds, OdometerRobot
 
         if start.count(",") != 2:
-            raise ConfigError(f"--start is {start!r}; give X,Y,DEGREES: metres and degrees between commas, without blanks")
+            raise ConfigError(f"--start is {start!r}; give X,Y,DEGREES: metres and degrees between commas")
         x, y, heading = (number(each, "--start") for each in start.split(","))
         self.name = "the embedded environment" if path is None else path.stem
         self.bounds: OdometerBounds = OdometerBounds(float(_part(distance_error)), float(number(turn_error, "--turn-error")))
@@ -79,10 +80,11 @@ class Drive:
         return f"<Drive in {self.name}>"
 
     def localized(self) -> "Localization":
-        """Drive the robot until it is localized."""
+        """Drive the robot until it is localized; a bar on a terminal counts commands."""
         from ial.odometer import localize
 
-        return localize(self.polygons, self.robot, self.bounds)
+        with counting("commands") as progress:
+            return localize(self.polygons, self.robot, self.bounds, progress=progress)
 
 
 def _part(text: str) -> "Fraction":

@@ -102,7 +102,8 @@ def _lines(found: "Localization", robot: "OdometerRobot") -> list[str]:
         )
     if count > _MOST_PLACES:
         lines.append(f"     and {count - _MOST_PLACES} more")
-    lines.append(f"the simulated robot is at x {robot.x:.6g} m, y {robot.y:.6g} m, heading {robot.heading_deg:.6g}°")
+    x, y = (round(each, 12) + 0.0 for each in (robot.x, robot.y))  # + 0.0: no negative zero
+    lines.append(f"the simulated robot is at x {x:.6g} m, y {y:.6g} m, heading {robot.heading_deg:.6g}°")
     return lines
 
 

@@ -22,5 +22,13 @@ def exit_status() -> Iterator[None]:
             remark("error", "the memory does not hold what this needs; use larger cells, a smaller map, or fewer headings", "bold red")
             raise SystemExit(WRONG_INPUT) from None
         except KeyboardInterrupt:
-            remark("interrupted", "nothing was written", "bold red")
-            raise SystemExit(INTERRUPTED) from None
+            raise _interrupted() from None
+        except SystemError as error:  # what Numba makes of an interruption within a kernel
+            if not isinstance(error.__cause__ or error.__context__, KeyboardInterrupt):
+                raise
+            raise _interrupted() from None
+
+
+def _interrupted() -> SystemExit:
+    remark("interrupted", "nothing was written", "bold red")
+    return SystemExit(INTERRUPTED)

@@ -51,6 +51,8 @@ class Congruence:
 def congruences(one: Polygon, other: Polygon) -> list[Congruence]:
     """Return every rotation with a translation that lays one polygon exactly upon another, by their outer rings.
 
+    Corners at which a ring goes straight on do not count.
+
     The lengths of the sides and the dot and cross products of each with the next one are a string that no motion changes; it is searched
     for in the other's, written twice, by the algorithm of Knuth, Morris and Pratt. Holes are then compared corner by corner.
 
@@ -59,6 +61,7 @@ def congruences(one: Polygon, other: Polygon) -> list[Congruence]:
     list
         Of `one` upon itself, the identity comes first; there are 1, 2 or 4 then, since corners are rational.
     """
+    one, other = _bent(one), _bent(other)
     text = _sides(other.outer)
     return [found for shift in _occurrences(_sides(one.outer), text) if (found := _exact(one, other, shift)) is not None]
 
@@ -67,7 +70,7 @@ def near_congruences(one: Polygon, other: Polygon, tolerance_m: float) -> list[C
     """Return the rotations with translations that lay each corner of a polygon within a tolerance of a corner of another one.
 
     A regular pentagon has no corners in rational numbers, and its exact symmetries are lost; these are not. Computed in doubles, so that
-    the tolerance must be far above 1e-15 of the size.
+    the tolerance must be far above 1e-15 of the size. Corners at which a ring goes straight on do not count.
 
     Parameters
     ----------
@@ -76,6 +79,7 @@ def near_congruences(one: Polygon, other: Polygon, tolerance_m: float) -> list[C
     tolerance_m
         How far a corner may miss the other one, in metres.
     """
+    one, other = _bent(one), _bent(other)
     if len(one.outer) != len(other.outer) or sorted(map(len, one.holes)) != sorted(map(len, other.holes)):
         return []
     corners, targets = _complex(one.outer), _complex(other.outer)
@@ -95,6 +99,14 @@ def near_congruences(one: Polygon, other: Polygon, tolerance_m: float) -> list[C
         ):
             found.append(Congruence(float(turn.real), float(turn.imag), float(offset.real), float(offset.imag), False))
     return found
+
+
+def _bent(polygon: Polygon) -> Polygon:
+    """Return the same area without the corners at which its rings go straight on."""
+    outer, *holes = (
+        tuple(corner for corner, (_, _, cross) in zip(ring[1:] + ring[:1], _sides(ring), strict=True) if cross) for ring in polygon.rings
+    )
+    return Polygon.trusted(outer, tuple(holes))
 
 
 def _holes_match(holes: Sequence[ExactRing], others: Sequence[ExactRing], turn: complex, offset: complex, tolerance_m: float) -> bool:

@@ -56,6 +56,11 @@ class Shooter:
     polygon
         The free space.
 
+    Attributes
+    ----------
+    size_m
+        The longer side of the box around it, in metres.
+
     Examples
     --------
     >>> from fractions import Fraction
@@ -75,7 +80,8 @@ class Shooter:
         self._middle = (low_x + high_x) / 2, (low_y + high_y) / 2
         # How far a corner is aside and ahead is a sum of two products, each of a part of 1 and of at most the size of the polygon; what
         # `_first` makes of them has terms of at most four times the size.
-        self._doubt = 8.0 * ROUNDINGS * float(max(high_x - low_x, high_y - low_y))
+        self.size_m = float(max(high_x - low_x, high_y - low_y))
+        self._doubt = 8.0 * ROUNDINGS * self.size_m
         mx, my = self._middle
         self._x = np.array([float(x - mx) for x, _ in self.corners])
         self._y = np.array([float(y - my) for _, y in self.corners])

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from ial.compass.robot import CompassRobot
 from ial.compass.sequence_file import read_sequence, write_sequence
 
 Cli = Callable[..., Any]
@@ -25,12 +26,16 @@ def test_a_robot_ends_where_every_robot_ends(ial: Cli, sequence: Path, start: st
     assert len(result.stdout.splitlines()) == len(planned) + 1
 
 
-def test_a_robot_that_ends_elsewhere_is_not_localized(ial: Cli, sequence: Path) -> None:
+def test_a_file_that_proves_nothing_is_no_word_about_a_robot(refused: Callable[..., str], sequence: Path) -> None:
+    """Signed anew: another end, and only the first motion with its own end, which one of the robots reaches."""
     right = read_sequence(sequence)
     write_sequence(replace(right, end=(right.end[0] + Fraction(1, 9), right.end[1])), "forged.json")
-    result = ial("compass", "run", "forged.json", "--start", "1,1")
-    assert result.exit_code == 3
-    assert "not localized" in result.stdout
+    robot = CompassRobot(right.polygon, (1, 1))
+    short = replace(right, directions=right.directions[:1], sizes=right.sizes[:2], end=robot.drive(*right.directions[0]))
+    write_sequence(short, "short.json")
+    for name, said in (("forged.json", "which is not exactly that"), ("short.json", "more than one place at the end")):
+        assert said in refused("compass", "run", name, "--start", "1,1")
+        assert said in refused("compass", "show", name, "--out", "a.png")
 
 
 def test_bad_starts_are_refused(refused: Callable[..., str], sequence: Path) -> None:

@@ -34,6 +34,19 @@ def test_a_sequence_that_is_wrong_is_refused_at_its_step(refused: Callable[..., 
     assert "forged.json: step 1: " in refused("compass", "verify", "forged.json")
 
 
+def test_an_end_beyond_all_doubles_is_refused_in_a_line(refused: Callable[..., str], sequence: Path) -> None:
+    right = read_sequence(sequence)
+    write_sequence(replace(right, end=(-(10**400), right.end[1])), "far.json")
+    assert "the end that is claimed is (-1e400 or so, " in refused("compass", "verify", "far.json")
+
+
+def test_it_does_not_matter_at_which_corner_a_ring_begins(ial: Cli, sequence: Path) -> None:
+    (*corners,) = read_sequence(sequence).polygon.outer
+    text = ", ".join(f"{x} {y}" for x, y in [*corners[2:], *corners[:3]])
+    Path("turned.wkt").write_text(f"POLYGON (({text}))")
+    assert ial("compass", "verify", sequence, "turned.wkt").exit_code == 0
+
+
 def test_a_sequence_of_another_environment_is_refused(refused: Callable[..., str], sequence: Path) -> None:
     Path("other.wkt").write_text("POLYGON ((0 0, 5 0, 5 2, 2 2, 1 4, 0 4, 0 0))")
     assert "step 0: the sequence is one of another environment than other.wkt" in refused("compass", "verify", sequence, "other.wkt")

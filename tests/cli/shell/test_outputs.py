@@ -35,6 +35,9 @@ WRITERS: dict[str, tuple[list[object], list[str]]] = {  # a command, and what it
     "bounce export": (["bounce", "export", "hall.npz", "--out", "new.v"], ["new.v", "new.hex"]),
     "bounce show": (["bounce", "show", "hall.npz", "--out", "new.png"], ["new.png"]),
     "bounce simulate": (["bounce", "simulate", "hall.wkt", "--out", "new.txt", "--truth", "new.csv"], ["new.txt", "new.csv"]),
+    "compass plan": (["compass", "plan", "hall.wkt", "--out", "new.json"], ["new.json"]),
+    "compass show": (["compass", "show", "hall.json", "--out", "new.png"], ["new.png"]),
+    "odometer show": (["odometer", "show", "hall.wkt", "--start", "1,1,30", "--out", "new.png"], ["new.png"]),
     "localize": (["localize", "--to", 1, "--out", "run"], [f"run/{name}" for name in FILES]),
     "bounds": (["bounds", "--to", 3, "--out", "run"], [f"run/{name}" for name in BOUNDS_FILES]),
 }
@@ -47,6 +50,7 @@ def inputs(ial: Cli, room: Path) -> None:
     Path("old.tum").write_text("1137772793.094853 0 0 0 0 0 0 1\n")
     Path("hall.wkt").write_text("POLYGON ((0 0, 3 0, 3 2, 0 2, 0 0))")
     assert ial("bounce", "build", "hall.wkt", "--out", "hall.npz").exit_code == 0
+    assert ial("compass", "plan", "hall.wkt", "--out", "hall.json").exit_code == 0
 
 
 @pytest.mark.slow

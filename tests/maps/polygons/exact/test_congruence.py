@@ -76,3 +76,13 @@ def test_a_pentagon_has_five_near_rotations_and_one_exact() -> None:
     assert len(congruences(regular(5), regular(5))) == 1
     assert sorted(round(math.degrees(each.turn_rad)) for each in found) == [-144, -72, 0, 72, 144]
     assert not any(each.exact for each in found)
+
+
+def test_corners_at_which_a_ring_goes_straight_on_do_not_count() -> None:
+    plain = Polygon(((0, 0), (6, 0), (6, 5), (0, 5)))  # type: ignore[arg-type]
+    marked = Polygon(((0, 0), (3, 0), (6, 0), (6, 5), (0, 5), (0, 1)))  # type: ignore[arg-type]
+    hole = ((2, 2), (3, 2), (4, 2), (4, 3), (2, 3))
+    holed = Polygon(((0, 0), (6, 0), (6, 5), (0, 5)), (hole,))  # type: ignore[arg-type]
+    for one, other in ((plain, marked), (marked, plain), (marked, marked)):
+        assert len(congruences(one, other)) == len(near_congruences(one, other, 1e-9)) == 2
+    assert len(congruences(holed, holed)) == len(near_congruences(holed, holed, 1e-9)) == 2
