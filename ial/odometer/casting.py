@@ -14,7 +14,7 @@ from ial.contractors.intervals.trigonometric import cos, hypot, sin
 from ial.contractors.kernels import kernel
 
 COLUMNS = 9
-"""Of a row of bounds: part of the wall, x, y, heading (two each); the number of the wall, or −1 for a robot in the plane."""
+"""A row has bounds of the part of the wall, of x, of y and of the heading, and the number of the wall, −1 for a robot in the plane."""
 ROUNDS = 3  # of narrowing the ends of a bundle; more narrow little
 
 

@@ -1,7 +1,7 @@
 """`candidates`: where a robot may be that drove a chord of the polygon, turned, and drove another.
 
 The robot starts at p_a = p_1 + a·E_1 on a first wall, stops at p_b = p_2 + b·E_2 on a second and at p_c = p_3 + c·E_3 on a third. With
-w = p_b − p_a, the lengths d_1 and d_2, and R the turn between, p_c = p_b + (d_2/d_1)·R·w and |w| = d_1. That p_c is on the line of the
+w = p_b − p_a of length d_1, the second length d_2, and R the turn between, p_c = p_b + (d_2/d_1)·R·w. That p_c is on the line of the
 third wall is linear, G·a + H·b + I = 0, and leaves a quadratic equation in one of them (O'Kane and LaValle, Localization with limited
 sensing, IEEE Transactions on Robotics 2007, section IV-B; their equation 5 has the quotient upside down, and their constants divide by
 coordinates that are 0 for walls along an axis). Here it is solved in intervals, so that the lengths and the turn may be intervals too, and
