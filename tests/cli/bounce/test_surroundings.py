@@ -55,7 +55,7 @@ def test_a_picture_is_the_environment_that_it_shows(ial: Cli, hall: Path, plan: 
 def test_a_resolution_is_asked_for_where_it_is_needed_and_nowhere_else(
     refused: Callable[..., str], hall: Path, plan: Path, command: str
 ) -> None:
-    out = () if command in ("search-angle", "advise") else ("--out", "out.xyz")
+    out = () if command in ("search-angle", "advise") else ("--out", "out.png")
     assert "plan.png: a picture does not say how large it is; give its resolution" in refused("bounce", command, plan, *out)
     assert "no environment is a picture; leave it out" in refused("bounce", command, hall, "--resolution", "0.1", *out)
     assert "--resolution: 'wide' is no number" in refused("bounce", command, plan, "--resolution", "wide", *out)
