@@ -1,5 +1,6 @@
 """`Belief`: where a robot can be, as planners see it: the set of a localizer, its groups, and where no pose of it would collide."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +12,7 @@ from ial.active.safe_way import Distances, safe_ways
 from ial.contractors.boxes import Boxes
 from ial.datasets.motion import Motion
 from ial.datasets.scan import LaserScan
+from ial.errors import ConfigError
 from ial.lidar.estimate import Estimate
 from ial.lidar.localizer import Localizer
 from ial.maps.grids.occupancy_grid import OccupancyGrid
@@ -49,6 +51,9 @@ class Groups:
 class Belief:
     """What a lidar robot knows.
 
+    It assumes that the robot starts with its clearance and is never stopped by something: where it has collided, it may stand nearer than
+    that, and the set need not hold it any more.
+
     Parameters
     ----------
     localizer
@@ -56,13 +61,15 @@ class Belief:
         robot keeps that distance at each scan.
     radius_m
         The radius of the robot.
+    longest_s
+        How long a drive takes at most, in seconds: some errors of odometry grow with the time.
 
     Raises
     ------
     MapError
         If the map has no free space for the robot.
     ConfigError
-        If the radius is negative, or larger than the clearance.
+        If the radius is negative, or larger than the clearance, or no drive can take so long.
 
     Attributes
     ----------
@@ -76,8 +83,10 @@ class Belief:
         The last ones; None before them.
     """
 
-    def __init__(self, localizer: Localizer, radius_m: float) -> None:
-        self.localizer = localizer
+    def __init__(self, localizer: Localizer, radius_m: float, longest_s: float) -> None:
+        if not 0.0 < longest_s < math.inf:
+            raise ConfigError(f"a drive takes {longest_s:g} s at most; give how long one may take, in seconds")
+        self.localizer, self.longest_s = localizer, longest_s
         self.distances = Distances(radius_m, localizer.config.robot_radius_m)
         self.field = ClearanceField.of(localizer.grid, self.distances.clearance_m)
         self.estimate: Estimate | None = None
@@ -128,7 +137,8 @@ class Belief:
 
     def safe_ways(self, turns_rad: npt.ArrayLike, most_m: float) -> FloatArray:
         """Return how far it can drive after some turns (m), wherever it is; −1 where no way is safe."""
-        return safe_ways(self.poses, turns_rad, most_m, self.field, self.distances, self.localizer.config.bounds.motion)
+        bounds = self.localizer.config.bounds.motion
+        return safe_ways(self.poses, turns_rad, most_m, self.field, self.distances, bounds, self.longest_s)
 
     def groups(self, width_m: float = 1.0, most: int = 64) -> Groups:
         """Return the parts of the set that a planner tells apart.

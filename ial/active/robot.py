@@ -34,7 +34,7 @@ class Driven(Generic[MotionT, ReadingT]):
     reading
         What the robot sees where it stopped.
     collided
-        Whether it touched something and stopped early. The motion is right all the same.
+        Whether it touched something and stopped early. The motion is right all the same, but one of the assumptions of `Belief` was not.
     """
 
     motion: MotionT

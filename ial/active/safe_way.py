@@ -76,8 +76,8 @@ def _march(start, stop, lower, upper, turns, field, place, wanted, errors, step,
                         clear = field[row, column] if 0 <= row < rows and 0 <= column < columns else 0.0
                         # A pose of the box is off by its half width, its direction by an arc, and it may miss its way.
                         missed = half + way * aside + turned[k] + grown[k] * way
-                        # Up to here places are half a step from one that was looked at.
-                        free = clear >= radius + missed + 0.5 * step
+                        # Places between two are half a step from one of them, and what may be missed has grown by then.
+                        free = clear >= radius + missed + 0.5 * step * (1.0 + aside + grown[k])
                         if free and clear < clearance + missed:
                             safe[chunk, k, n] = False
                     if not free:
@@ -85,7 +85,13 @@ def _march(start, stop, lower, upper, turns, field, place, wanted, errors, step,
 
 
 def safe_ways(
-    poses: Boxes, turns_rad: npt.ArrayLike, most_m: float, field: ClearanceField, distances: Distances, bounds: MotionBounds
+    poses: Boxes,
+    turns_rad: npt.ArrayLike,
+    most_m: float,
+    field: ClearanceField,
+    distances: Distances,
+    bounds: MotionBounds,
+    longest_s: float,
 ) -> FloatArray:
     """Return how far a robot can drive after some turns on the spot, safe wherever in a set of poses it is.
 
@@ -103,6 +109,8 @@ def safe_ways(
         What it keeps.
     bounds
         How far it may be from where it is told to go, at every moment.
+    longest_s
+        How long a drive takes at most, in seconds.
 
     Returns
     -------
@@ -112,7 +120,7 @@ def safe_ways(
     turns = np.ascontiguousarray(turns_rad, dtype=np.float64)
     count = max(2, math.ceil(2.0 * most_m / field.place_m) + 1)
     step = most_m / (count - 1)
-    turned, driven = (np.array([_missed_m(bounds, turn, way) for turn in turns.tolist()]) for way in (0.0, most_m))
+    turned, driven = (np.array([_missed_m(bounds, turn, way, longest_s) for turn in turns.tolist()]) for way in (0.0, most_m))
     grown = ABOVE * (driven - turned) / most_m if most_m else np.zeros(len(turns))
     small = _parts(poses)
     chunks = -(-len(small) // _CHUNK)
@@ -136,8 +144,8 @@ def _parts(poses: Boxes) -> Boxes:
     return poses
 
 
-def _missed_m(bounds: MotionBounds, turn: float, way_m: float) -> float:
+def _missed_m(bounds: MotionBounds, turn: float, way_m: float, seconds: float) -> float:
     """Return how far a robot may be from where it was told to go; that is a sum of parts, one of which grows with the way."""
-    told = bounds.enclose(Pose(way_m * math.cos(turn), way_m * math.sin(turn), turn))
+    told = bounds.enclose(Pose(way_m * math.cos(turn), way_m * math.sin(turn), turn), seconds)
     half = 0.5 * (told.upper - told.lower)
     return math.hypot(half[0], half[1]) * ABOVE

@@ -95,9 +95,8 @@ class SimulatedRobot:
 
     def drive(self, command: Drive) -> Driven[Motion, LaserScan]:
         """Obey a command, and look."""
-        target = self._missed(command)
-        reached, collided = self._reached(target)
         seconds = abs(command.turn_rad) / _TURN_RAD_S + command.distance_m / _SPEED_M_S + 0.1
+        reached, collided = self._reached(self._missed(command, seconds))
         stamps = [round(1e9 * self._now_s), round(1e9 * (self._now_s + seconds))]
         path = simulated_odometry(
             self._odometry, self.pose, reached, stamps, self.errors.motion, self.errors.sensor.adversarial, self._random
@@ -107,10 +106,10 @@ class SimulatedRobot:
         self.collisions += collided
         return Driven(self.errors.motion.along(path), self.look(), collided)
 
-    def _missed(self, command: Drive) -> Pose:
+    def _missed(self, command: Drive, seconds: float) -> Pose:
         """Return where the command leads, with an error."""
         turn, way = command.turn_rad, command.distance_m
-        told = self.errors.motion.enclose(Pose(way * math.cos(turn), way * math.sin(turn), turn))
+        told = self.errors.motion.enclose(Pose(way * math.cos(turn), way * math.sin(turn), turn), seconds)
         half = 0.5 * (told.upper - told.lower) * _SLACK
         drawn = self._random.choice([-1.0, 1.0], 3) if self.errors.sensor.adversarial else self._random.uniform(-1.0, 1.0, 3)
         dx, dy, dtheta = (half * drawn).tolist()

@@ -9,10 +9,11 @@ import math
 import numpy as np
 
 from ial.contractors.kernels import kernel
+from ial.contractors.margins import ROUNDINGS
 
-_LENGTH = 1e-12  # of the size: what may be rounded in a distance
-_ANGLE = 1e-7  # radians
 _SHORT = 1e-6  # of the size: the angle of a shorter vector is not looked at
+_LENGTH = 512.0 * ROUNDINGS  # of the size: what may be rounded in a distance
+_ANGLE = _LENGTH / (8.0 * _SHORT)  # radians
 
 
 @kernel

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ial.contractors.boxes import Boxes
+from ial.contractors.margins import ABOVE
 from ial.contractors.paving.clusters import cluster
 from ial.maps.polygons.exact.congruence import Congruence
 from ial.odometer.chords import wrapped
@@ -67,7 +68,7 @@ def hypotheses(world: str, states: Configurations) -> list[Hypothesis]:
     for number, ((x, y, heading), (width_x, width_y, width)) in enumerate(zip(hulls.tolist(), wide.tolist(), strict=True)):
         first, last = starts[number], starts[number + 1]
         chosen = order[first : last : -(-(last - first) // _MOST_SAMPLES)]
-        diagonal = math.hypot(width_x, width_y) * (1.0 + 2.0**-50)
+        diagonal = math.hypot(width_x, width_y) * ABOVE
         turned = (heading + math.pi) % (2.0 * math.pi) - math.pi
         found.append(Hypothesis(world, x + ox, y + oy, turned, diagonal, width, middles[chosen]))
     return found

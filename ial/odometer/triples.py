@@ -27,7 +27,7 @@ from ial.odometer.chords import blocked, wrapped
 
 _PIECES = 64  # of a wall in a chain of boxes
 _SLIDING = 1e-4  # of the first way: by how much it may change along a chain of one direction
-_NARROW = 1e-7  # of the size: boxes narrower than this are first looked at in plain doubles, with a doubt ten times as large
+_NARROW = 1e-7  # of the size: boxes narrower than this are first looked at in plain doubles, with a doubt a hundred times as large
 
 
 @kernel

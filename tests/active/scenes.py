@@ -14,8 +14,8 @@ from ial.lidar.localizer import Localizer
 from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.pose import Pose
 
-RADIUS_M, CLEARANCE_M = 0.2, 0.35
-MOTION = MotionBounds(ErrorBound(0.0, 0.02, 0.01, 0.0, 0.01), ErrorBound(0.0, 0.01, 0.03, 0.0, 0.005))
+RADIUS_M, CLEARANCE_M, LONGEST_S = 0.2, 0.35, 6.0
+MOTION = MotionBounds(ErrorBound(0.0, 0.02, 0.01, 0.002, 0.01), ErrorBound(0.0, 0.01, 0.03, 0.0, 0.005))
 LIDAR = Lidar(beams=91, angle_min=-math.pi, angle_increment=2.0 * math.pi / 91.0, range_max=4.0)
 SENSOR = SensorErrors(0.02, 0.002, 2)
 
@@ -26,7 +26,7 @@ def config(clearance_m: float = CLEARANCE_M) -> LocalizerConfig:
 
 
 def belief(grid: OccupancyGrid) -> Belief:
-    return Belief(Localizer(grid, config=config()), RADIUS_M)
+    return Belief(Localizer(grid, config=config()), RADIUS_M, LONGEST_S)
 
 
 def robot(grid: OccupancyGrid, start: Pose, seed: int = 0, adversarial: bool = False) -> SimulatedRobot:

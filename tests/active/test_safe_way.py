@@ -8,7 +8,7 @@ from ial.active.safe_way import Distances, safe_ways
 from ial.contractors.boxes import Boxes
 from ial.errors import ConfigError
 from ial.pose import Pose
-from tests.active.scenes import CLEARANCE_M, MOTION, RADIUS_M, distance_to_walls, room
+from tests.active.scenes import CLEARANCE_M, LONGEST_S, MOTION, RADIUS_M, distance_to_walls, room
 
 GRID = room()
 FIELD = ClearanceField.of(GRID, CLEARANCE_M)
@@ -30,12 +30,12 @@ def test_whatever_pose_is_true_and_however_it_errs_it_keeps_its_distances(seed: 
     random = np.random.default_rng(seed)
     turns = random.uniform(-math.pi, math.pi, 6)
     boxes = Boxes.around(some_poses(random), [0.05, 0.05, 0.02])
-    ways = safe_ways(boxes, turns, 1.0, FIELD, KEPT, MOTION)
+    ways = safe_ways(boxes, turns, 1.0, FIELD, KEPT, MOTION, LONGEST_S)
     assert (ways > 0.0).any()
     for turn, way in zip(turns.tolist(), ways.tolist(), strict=True):
         if way < 0.0:
             continue
-        told = MOTION.enclose(Pose(way * math.cos(turn), way * math.sin(turn), turn))
+        told = MOTION.enclose(Pose(way * math.cos(turn), way * math.sin(turn), turn), LONGEST_S)
         half = 0.5 * (told.upper - told.lower)[:2]
         for row in range(len(boxes)):
             for _ in range(30):
@@ -55,19 +55,21 @@ def test_whatever_pose_is_true_and_however_it_errs_it_keeps_its_distances(seed: 
 
 def test_a_way_is_nearly_as_long_as_it_can_be() -> None:
     at = Boxes.around([(1.0, 1.0, 0.0)], [0.0, 0.0, 0.0])
-    (way,) = safe_ways(at, [0.0], 10.0, FIELD, KEPT, MOTION).tolist()
+    (way,) = safe_ways(at, [0.0], 10.0, FIELD, KEPT, MOTION, LONGEST_S).tolist()
     assert 5.95 - 1.0 - CLEARANCE_M - 0.35 < way < 5.95 - 1.0 - CLEARANCE_M
 
 
 def test_of_several_poses_the_nearest_to_a_wall_decides() -> None:
     one, other = Boxes.around([(1.0, 1.0, 0.0)], [0.01] * 3), Boxes.around([(3.0, 1.0, 0.0)], [0.01] * 3)
-    ways = [safe_ways(each, [0.0, 1.0], 10.0, FIELD, KEPT, MOTION) for each in (one, other, Boxes.concatenate([one, other]))]
+    ways = [safe_ways(each, [0.0, 1.0], 10.0, FIELD, KEPT, MOTION, LONGEST_S) for each in (one, other, Boxes.concatenate([one, other]))]
     assert (ways[2] <= np.minimum(ways[0], ways[1])).all()
 
 
 def test_a_pose_without_clearance_is_impossible_and_in_nobodys_way() -> None:
     near, far = Boxes.around([(0.2, 2.0, 0.0)], [0.01] * 3), Boxes.around([(3.0, 1.0, 0.0)], [0.01] * 3)
-    assert safe_ways(Boxes.concatenate([near, far]), [0.0], 0.5, FIELD, KEPT, MOTION) == safe_ways(far, [0.0], 0.5, FIELD, KEPT, MOTION)
+    assert safe_ways(Boxes.concatenate([near, far]), [0.0], 0.5, FIELD, KEPT, MOTION, LONGEST_S) == safe_ways(
+        far, [0.0], 0.5, FIELD, KEPT, MOTION, LONGEST_S
+    )
 
 
 @pytest.mark.parametrize(("radius", "clearance"), [(-0.1, 0.2), (0.3, 0.2), (math.nan, 0.2), (0.1, math.inf)])

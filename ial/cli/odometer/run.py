@@ -10,6 +10,7 @@ from ial.cli.bounce.options import Resolution
 from ial.cli.odometer.drive import DistanceError, Drive, EnvironmentPath, Seed, StartPose, TurnError
 from ial.cli.shell.options import Json
 from ial.cli.shell.terminal import say, say_json
+from ial.contractors.margins import ABOVE
 
 if TYPE_CHECKING:
     from ial.odometer import Hypothesis, Localization, OdometerRobot
@@ -71,7 +72,7 @@ def _place(each: "Hypothesis") -> dict[str, Any]:
         "y_m": each.y,
         "heading_deg": math.degrees(each.heading_rad) % 360.0,
         "width_m": each.width_m,
-        "width_deg": math.nextafter(math.degrees(each.width_rad), math.inf),
+        "width_deg": math.degrees(each.width_rad) * ABOVE,
     }
 
 
