@@ -20,19 +20,19 @@ def run(
     from ial.compass.sequence_file import read_sequence
 
     sequence = read_sequence(sequence_path)
-    prove(sequence, sequence_path)
     robot = CompassRobot(sequence.polygon, place(start))
+    prove(sequence, sequence_path)
     places = [robot.place, *(robot.drive(*direction) for direction in sequence.directions)]
+    if robot.place != sequence.end:
+        raise AssertionError("a proved sequence leads everywhere to its end")
     if as_json:
         steps = [
             {"direction": [str(each) for each in direction], "place_m": [float(x), float(y)]}
             for direction, (x, y) in zip(sequence.directions, places[1:], strict=True)
         ]
-        say_json({"start_m": [float(each) for each in places[0]], "steps": steps, "localized": robot.place == sequence.end})
+        say_json({"start_m": [float(each) for each in places[0]], "steps": steps, "localized": True})
     else:
         width = len(str(len(sequence)))
         for step, (direction, (x, y)) in enumerate(zip(sequence.directions, places[1:], strict=True), 1):
             say(f"{step:>{width}}  ({direction[0]}, {direction[1]})  to x {float(x):.6g} m, y {float(y):.6g} m")
-        if robot.place != sequence.end:
-            raise AssertionError("a proved sequence leads everywhere to its end")
         say("localized: the robot is where every robot is after this sequence, exactly; that was proved first")
