@@ -13,8 +13,6 @@ else:
         rational = Fraction
     Rational = Fraction | type(rational(0))
 
-Whole: TypeAlias = int  # of gmpy2, too, where numbers of that come from
-
 
 def fraction(number: Rational) -> Fraction:
     """Return a number of either kind as a fraction of the standard library."""
