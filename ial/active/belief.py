@@ -45,7 +45,12 @@ class Groups:
         return len(self.poses)
 
     def __repr__(self) -> str:
-        return f"<Groups: {len(self)} in {len(set(self.component.tolist()))} connected parts>"
+        return f"<Groups: {len(self)} in {self.parts} connected parts>"
+
+    @property
+    def parts(self) -> int:
+        """How many connected parts of the set there are."""
+        return len(set(self.component.tolist()))
 
 
 class Belief:

@@ -22,7 +22,7 @@ SENSOR = SensorErrors(0.02, 0.002, 2)
 
 def config(clearance_m: float = CLEARANCE_M) -> LocalizerConfig:
     plain = LocalizerConfig()
-    return dataclasses.replace(plain, robot_radius_m=clearance_m, bounds=dataclasses.replace(plain.bounds, motion=MOTION))
+    return dataclasses.replace(plain, outliers=4, robot_radius_m=clearance_m, bounds=dataclasses.replace(plain.bounds, motion=MOTION))
 
 
 def belief(grid: OccupancyGrid) -> Belief:
