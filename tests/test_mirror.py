@@ -32,7 +32,7 @@ ACROSS = {  # tests of no single file, and what they are of
     "test_mirror.py": "this one",
     "test_packaging.py": "what is installed",
     "test_pages.py": "the pages of the documentation",
-    "test_readme.py": "types of the snippets of the README",
+    "test_readme.py": "types of the snippets of the README, and of a robot of one's own",
     "test_repr.py": "what every public object says of itself",
     "test_tutorial.py": "examples in pages",
 }
@@ -48,7 +48,6 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
             "planners/random_walk",
             "planners/route",
             "planners/two_stage",
-            "robot",
         ],
         "bouncing/automata/test_determinization.py": ["subset"],
         "bouncing/cells/test_noisy_map.py": ["cell_ways"],

@@ -4,7 +4,7 @@ from collections import Counter
 import pytest
 
 from ial.active.exploration import explore
-from ial.odometer import CommandedRobot, OdometerBelief, OdometerBounds, OdometerModel, Pilot, localize
+from ial.odometer import CommandedRobot, OdometerBelief, OdometerBounds, OdometerModel, Pilot, Session
 from ial.odometer.estimate import OdometerEstimate
 from ial.odometer.splitting import Rule, by_direction, by_expectation
 from tests.maps.polygons.random_polygons import random_polygon, rectilinear_polygon
@@ -37,7 +37,7 @@ def test_either_rule_keeps_the_truth_and_ends_as_localize_does() -> None:
     directions = 0
     for seed, polygon in enumerate(ENVIRONMENTS):
         model = OdometerModel(polygon)
-        expected = localize(polygon, robot(polygon, seed))
+        expected = Session({"here": model}, robot(polygon, seed)).run()  # what localize runs
         assert expected.status in ("localized", "symmetric")
         for name, rule in RULES.items():
             last, reasons = explored(model, seed, rule)
