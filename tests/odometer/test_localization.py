@@ -5,29 +5,24 @@ import pytest
 
 from ial.errors import ConfigError, ImpossibleError
 from ial.maps.polygons.polygon import Polygon
-from ial.odometer import Command, Localization, OdometerBounds, OdometerModel, OdometerRobot, Session, localize
+from ial.odometer import Localization, OdometerBounds, OdometerModel, OdometerRobot, Session, localize
 from tests.maps.polygons.random_polygons import random_polygon, rectilinear_polygon
+from tests.odometer.followed_robot import FollowedRobot
 from tests.odometer.worlds import L_SHAPE, S_SHAPE, SERPENTINE, SQUARE, WORLDS, regular, ring, robot
 
 
 def followed(model: OdometerModel, driven: OdometerRobot, most: int = 100) -> Localization:
     """A localization in which the truth is looked for after each command."""
+    watched = FollowedRobot(driven)
+    counted = []
 
-    class Watched:
-        def execute(self, command: Command) -> float:
-            if session.states is not None and len(watched):
-                assert holds(), (driven, command)
-            watched.append(command)
-            return driven.execute(command)
+    def look(commands: int) -> None:
+        counted.append(commands)
+        assert watched.is_in(session.states["here"]), (driven, commands)
 
-    def holds() -> bool:
-        return session.states["here"].holds(driven.x, driven.y, driven.heading_rad)
-
-    watched: list[Command] = []
-    session = Session({"here": model}, Watched(), most)
+    session = Session({"here": model}, watched, most, look)
     result = session.run()
-    assert holds()
-    assert len(watched) == len(result.steps)
+    assert counted == list(range(2, len(result.steps) + 1))
     return result
 
 

@@ -8,6 +8,7 @@ from ial.odometer import CommandedRobot, OdometerBelief, OdometerBounds, Odomete
 from ial.odometer.estimate import OdometerEstimate
 from ial.odometer.splitting import Rule, by_direction, by_expectation
 from tests.maps.polygons.random_polygons import random_polygon, rectilinear_polygon
+from tests.odometer.followed_robot import FollowedRobot
 from tests.odometer.worlds import L_SHAPE, S_SHAPE, SERPENTINE, SQUARE, regular, robot
 
 RULES = {"expectation": by_expectation, "direction": by_direction}
@@ -21,10 +22,10 @@ ENVIRONMENTS = [
 def explored(model: OdometerModel, seed: int, rule: Rule, most: int = 60) -> tuple[OdometerEstimate, list[str]]:
     """Explore, look for the truth after each drive, and return the last answer and the reasons of all commands."""
     known = OdometerBelief({"here": model})
-    driven = robot(model.walls.polygon, seed, model.bounds)
+    driven = FollowedRobot(robot(model.walls.polygon, seed, model.bounds))
     reasons = []
     for step in explore(known, CommandedRobot(driven), Pilot(known, rule), most):
-        assert known.states["here"].holds(driven.x, driven.y, driven.heading_rad), (driven, step.decision)
+        assert driven.is_in(known.states["here"]), (driven.driven, step.decision)
         assert step.estimate is known.estimate
         reasons += [step.decision.reason] if step.decision else []
     assert len(reasons) < most, "it ends"
