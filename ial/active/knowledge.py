@@ -26,6 +26,6 @@ class Knowledge(Protocol[MotionT, ReadingT, EstimateT]):
         """Where the robot is, by the middle of its odometry, in the frame of its start."""
         ...
 
-    def update(self, motion: MotionT | None, reading: ReadingT, *, collided: bool = False) -> EstimateT:
+    def update(self, motion: MotionT | None, reading: ReadingT, /, *, collided: bool = False) -> EstimateT:
         """Take a motion, None before the first reading, and a reading, and whether the robot touched something on its way."""
         ...

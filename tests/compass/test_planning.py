@@ -76,7 +76,7 @@ def test_every_start_ends_in_one_point(name: str, order: Order) -> None:
 
 @pytest.mark.slow
 def test_many_walls() -> None:
-    polygon = random_polygon(30, 1)  # of more walls there is a bench
+    polygon = random_polygon(50, 4)
     greedy, paper = localizing_sequence(polygon), localizing_sequence(polygon, "paper")
     check(polygon, greedy, 10)
     verify(paper)

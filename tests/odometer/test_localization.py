@@ -43,7 +43,7 @@ def test_the_truth_is_in_the_set_at_every_step_and_one_orbit_is_left(name: str) 
 def test_the_truth_is_kept_with_errors_as_large_as_allowed() -> None:
     bounds = OdometerBounds(0.01, 0.5)
     narrow = 0
-    for seed in range(10):
+    for seed in range(6):  # a thousand of them are a bench
         polygon = random_polygon(corners=9, seed=seed) if seed % 2 else L_SHAPE
         model = OdometerModel(polygon, bounds)
         result = followed(model, robot(polygon, seed, bounds), 30)
@@ -52,7 +52,7 @@ def test_the_truth_is_kept_with_errors_as_large_as_allowed() -> None:
             assert result.narrowest is not None
             assert result.narrowest.width_m <= result.width_m
             narrow += result.narrowest.width_m < 0.1 * model.walls.size
-    assert narrow >= 5
+    assert narrow >= 3
 
 
 def test_a_pentagon_leaves_exactly_five() -> None:
