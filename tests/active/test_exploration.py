@@ -35,7 +35,7 @@ def test_the_truth_is_never_lost_and_nothing_is_touched(name: str, plan: str) ->
     ends = set()
     for seed in range(2):
         known, driving = belief(grid), robot(grid, random_walk(grid, 1, seed, clearance_m=0.5)[0], seed, adversarial=seed == 1)
-        for step in explore(known, driving, planner(name, known), 25 if name == "direction" else 15):
+        for step in explore(known, driving, planner(name, known), 25):
             assert step.estimate.poses.contains(grid.pose_to_grid(driving.pose))
             assert not step.collided
         ends.add(step.estimate.status)

@@ -132,13 +132,13 @@ import sys
 sys.modules["gmpy2"] = None
 from ial.compass import localizing_sequence
 from tests.maps.polygons.random_polygons import random_polygon
-for seed in range(2):
+for seed in range(3):
     made = localizing_sequence(random_polygon(14, seed))
     print(made.directions, made.sizes, *map(str, made.end))
 """
     root = Path(__file__).resolve().parents[2]
     told = subprocess.run([sys.executable, "-c", program], cwd=root, check=True, capture_output=True, text=True).stdout.splitlines()
-    made = [localizing_sequence(random_polygon(14, seed)) for seed in range(2)]
+    made = [localizing_sequence(random_polygon(14, seed)) for seed in range(3)]
     assert told == [f"{each.directions} {each.sizes} {each.end[0]} {each.end[1]}" for each in made]
 
 
