@@ -17,7 +17,8 @@ class Decision:
     drive
         The command; None if nothing is left to do.
     stage
-        What chose it: ``direction``, ``frontier``, ``backtrack``, or the name of another planner; ``exhausted`` if nothing is left.
+        What chose it: ``direction``, ``frontier``, ``backtrack``, ``view``, ``opening`` for moves that every run begins with, or the name
+        of another planner; ``exhausted`` if nothing is left.
     reason
         In words.
     target
