@@ -114,6 +114,11 @@ class Belief:
         return 0.0 if self.view is None else self.view.range_m
 
     @property
+    def uses_no_return(self) -> bool:
+        """Whether beams without return tell something."""
+        return self.localizer.config.free_space.no_return
+
+    @property
     def bad_part(self) -> float:
         """Which part of the beams of the last scan may be bad."""
         return 0.0 if self.estimate is None or not self.estimate.beams else self.estimate.outliers_allowed / self.estimate.beams

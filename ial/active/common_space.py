@@ -61,8 +61,9 @@ class CommonSpace:
         self._dear = 1.0 + _DEAREST * np.clip((wanted - spare) / wanted, 0.0, 1.0)
         self._free = free
         self._own = field.at(self._x, self._y) >= distances.radius_m
-        begin = self._place(self.here.x, self.here.y)
-        (self._ways,), (self._before,) = dijkstra(self._linked(free), directed=False, indices=[begin], return_predecessors=True)
+        self._graph = self._linked(free)
+        begin = int(self.places(self.here.x, self.here.y))
+        (self._ways,), (self._before,) = dijkstra(self._graph, directed=False, indices=[begin], return_predecessors=True)
 
     def __repr__(self) -> str:
         return f"<CommonSpace: {int(self._free.sum())} of {len(self._free)} places>"
@@ -80,10 +81,11 @@ class CommonSpace:
         pair = np.concatenate(begins), np.concatenate(ends)
         return sparse.csr_array((np.concatenate(lengths), pair), shape=(len(free), len(free)))
 
-    def _place(self, x: float, y: float) -> int:
-        column = min(max(math.floor(x / self.spacing_m), 0), self._columns - 1)
-        row = min(max(math.floor(y / self.spacing_m), 0), self._rows - 1)
-        return int(row * self._columns + column)
+    def places(self, x: npt.ArrayLike, y: npt.ArrayLike) -> npt.NDArray[np.int64]:
+        """Return the places in which points of the grid's frame are; outside of the map, the nearest."""
+        column = np.clip(np.floor(np.asarray(x) / self.spacing_m), 0, self._columns - 1)
+        row = np.clip(np.floor(np.asarray(y) / self.spacing_m), 0, self._rows - 1)
+        return np.asarray(row * self._columns + column, dtype=np.int64)
 
     def nearest(self, x: float, y: float, most_m: float) -> int | None:
         """Return the place nearest to a point that can be reached, at most so far from it; None if there is none."""
@@ -115,6 +117,11 @@ class CommonSpace:
     def cost_m(self, place: int) -> float:
         """Return what the best way to a place costs: its length, more where it is narrow (m); infinite if there is none."""
         return float(self._ways[place])
+
+    def costs_from(self, place: int) -> FloatArray:
+        """Return what the way from each place to this one costs (m); infinite where there is none."""
+        (ways,) = dijkstra(self._graph, directed=False, indices=[place])
+        return np.asarray(ways)
 
     def point(self, place: int) -> tuple[float, float]:
         """Return where a place is, in metres, in the grid's frame."""

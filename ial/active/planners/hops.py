@@ -1,6 +1,5 @@
 """`Hops`: the next drive towards a point, as far as it is safe wherever the robot is."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -9,7 +8,7 @@ import numpy as np
 from ial.active.belief import Belief
 from ial.active.robot import Drive
 
-_SHORTEST_M = 0.05
+_SHORTEST_M = 0.1
 _LOOK_AHEAD, _TRIES = 40, 6
 
 
@@ -32,12 +31,15 @@ class Hops:
         return Drive(turn_rad, way) if way >= min(_SHORTEST_M, distance_m) and way > 0.0 else None
 
     def along(self, belief: Belief, points: Sequence[tuple[float, float]]) -> Drive | None:
-        """Return the next drive along a path, whose points are ahead and to the left of the robot: to the farthest that is safe."""
-        ahead = points[:_LOOK_AHEAD]
-        turns = [math.atan2(y, x) for x, y in ahead]
-        lengths = np.array([math.hypot(x, y) for x, y in ahead])
-        safe = belief.safe_ways(turns, float(lengths.max(initial=0.0)))
-        whole = np.flatnonzero(safe >= lengths)
-        order = [*whole[::-1].tolist(), *np.argsort(-safe, kind="stable").tolist()]  # else those to which it comes farthest
-        drives = (self.straight(belief, turns[at], float(lengths[at])) for at in order[:_TRIES])
+        """Return the next drive along a path, whose points are ahead and to the left of the robot: the one that gets on most.
+
+        None if none gets on by the shortest way that is driven.
+        """
+        ahead = np.array(points[:_LOOK_AHEAD], dtype=np.float64).reshape(-1, 2)
+        turns, lengths = np.arctan2(ahead[:, 1], ahead[:, 0]), np.hypot(ahead[:, 0], ahead[:, 1])
+        along = np.cumsum(np.hypot(*np.diff(ahead, axis=0, prepend=[[0.0, 0.0]]).T))
+        ways = np.minimum(belief.safe_ways(turns, self.hop_m), lengths)
+        gained = along - (lengths - ways)  # what of the path is behind it then
+        order = [at for at in np.argsort(-gained, kind="stable").tolist() if ways[at] >= _SHORTEST_M]
+        drives = (self.straight(belief, float(turns[at]), float(ways[at])) for at in order[:_TRIES])
         return next((drive for drive in drives if drive is not None), None)

@@ -54,5 +54,6 @@ class Outlook:
             part = slice(begin, begin + _TOGETHER)
             moved = moved_along(groups.poses, ahead[part], aside[part])
             readings = self.sensors.readings(moved, directions(SENSORS), belief.range_m)
-            found.append(told_apart(readings, value, self.same_m, belief.bad_part))
+            tells = np.full(readings.shape, True) if belief.uses_no_return else readings < belief.range_m
+            found.append(told_apart(readings, tells, value, self.same_m, belief.bad_part))
         return np.concatenate(found) if found else np.zeros(0)

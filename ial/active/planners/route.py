@@ -3,15 +3,20 @@
 import math
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from ial.active.belief import Belief, Groups
 from ial.active.common_space import CommonSpace, in_robot_frame
 from ial.active.planners.hops import Hops
 from ial.active.robot import Drive
+from ial.active.virtual_sensors import directions
 from ial.pose import Pose
 
 Place = tuple[float, float]
 
 _MOST_PARTS = 500  # of a set, by which common space is judged
+_DIRECTIONS = 36
+_GAINED_M = 0.05
 
 
 @dataclass(frozen=True)
@@ -59,4 +64,17 @@ class Route:
         if number is None or math.hypot(at.x - space.here.x, at.y - space.here.y) < self.near_m / 2.0:
             return None
         points = space.path(number)
-        return self.hops.along(belief, in_robot_frame(space.here, points)) if points else None
+        drive = self.hops.along(belief, in_robot_frame(space.here, points)) if points else None
+        return drive or self._around(belief, space, number)
+
+    def _around(self, belief: Belief, space: CommonSpace, number: int) -> Drive | None:
+        """Return a drive in any direction after which the way to a place costs less: the way itself is too near to something here."""
+        turns = directions(_DIRECTIONS)
+        ways = belief.safe_ways(turns, self.hops.hop_m)
+        left = space.costs_from(number)
+        ends = space.here.x + ways * np.cos(space.here.theta + turns), space.here.y + ways * np.sin(space.here.theta + turns)
+        after = np.where(ways > 0.0, left[space.places(*ends)], math.inf)
+        best = int(np.argmin(after))
+        if not after[best] < left[space.places(space.here.x, space.here.y)] - _GAINED_M:
+            return None
+        return self.hops.straight(belief, math.remainder(float(turns[best]), 2.0 * math.pi), float(ways[best]))

@@ -6,6 +6,7 @@ that would tell possible places apart.
 """
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -22,6 +23,9 @@ from ial.pose import Pose
 
 _FURTHER_M = np.array([0.0, 0.5, 1.0, 1.5, 2.0])  # than where the first beam of stage 1 differs
 _SURE_M = 2.0  # of its way that stage 1 needs to be safe, if it is longer
+_SETTING_OUT_M = 1.0  # what a new target costs besides its way
+_DEEPER = 2.0  # as much more are frontiers worth that were seen last
+_ROUNDS = 2  # so often places are tried again that could not be reached
 _VIEW_EVERY = 2  # places of the lattice of ways
 
 
@@ -58,12 +62,19 @@ class _Open:
     born: int
 
 
-@dataclass
-class _Target:
-    """What is being driven to, and what chose it."""
+@dataclass(frozen=True)
+class _Choice:
+    """A place to drive to: what it tells apart, what the way costs, and what chose it."""
 
+    worth: float
+    cost_m: float
     place: Place
     stage: str
+
+    @property
+    def value(self) -> float:
+        """What is told apart for a metre; those frontiers are preferred that were seen last, as a search in depth does."""
+        return (_DEEPER if self.stage == "frontier" else 1.0) * self.worth / (_SETTING_OUT_M + self.cost_m)
 
 
 @dataclass
@@ -95,9 +106,10 @@ class TwoStagePlanner:
         self._area = ExploredArea(belief.grid)
         self._open: list[_Open] = []
         self._done: list[Place] = []
-        self._fewest = math.inf
+        self._stood: list[Place] = []
+        self._fewest, self._rounds = math.inf, 0
         self._leg: _Leg | None = None
-        self._target: _Target | None = None
+        self._target: _Choice | None = None
         self._tried_here = False
         self._choices = 0
 
@@ -110,8 +122,10 @@ class TwoStagePlanner:
             self._area.add(belief.view)
         groups = belief.groups(most=MOST_GROUPS)
         if groups.parts < self._fewest:  # what was of no use may be of use now
-            self._fewest = groups.parts
+            self._fewest, self._rounds = groups.parts, 0
             self._done.clear()
+            self._stood.clear()
+        self._stood.append((belief.moved.x, belief.moved.y))
         leg = self._along_leg(belief)
         if leg is not None:
             return leg
@@ -127,7 +141,7 @@ class TwoStagePlanner:
             if decision is not None:
                 return decision
         space = self._route.space(belief, groups) if space is None else space
-        return self._by_frontier(belief, groups, space) or self._by_view(belief, groups, space)
+        return self._by_place(belief, groups, space)
 
     def _along_leg(self, belief: Belief) -> Decision | None:
         """Return the next part of the way in a direction; None if it is done, or cannot be gone on with."""
@@ -147,22 +161,20 @@ class TwoStagePlanner:
             return None
         place, stage = self._target.place, self._target.stage
         at = self._route.in_map(belief, space, place)
-        gone = stage != "view" and all(math.dist(place, each.place) >= self._route.near_m for each in self._known(belief, space))
-        if not gone and self._outlook.worth(belief, groups, space.here, [(at.x, at.y)])[0] > 0.0:
+        gone = stage in ("frontier", "backtrack") and all(
+            math.dist(place, each.place) >= self._route.near_m for each in self._known(belief, space)
+        )
+        if stage == "approach" or (not gone and self._outlook.worth(belief, groups, space.here, [(at.x, at.y)])[0] > 0.0):
             drive = self._route.towards(belief, space, place)
             if drive is not None:
                 return Decision(drive, stage, "further to the same place", place)
         self._target, self._tried_here = None, False
         return None
 
-    def _set_out(self, place: Place, stage: str) -> None:
-        """Drive to a place from now on; it is not chosen again."""
-        self._done.append(place)
-        self._target, self._tried_here = _Target(place, stage), False
-        self._choices += 1
-
-    def _is_done(self, place: Place) -> bool:
-        return any(math.dist(place, done) < self._route.near_m / 2.0 for done in self._done)
+    def _fresh(self, choices: Iterable[_Choice]) -> list[_Choice]:
+        """Return those that were not set out to before, and at which the robot has not stood."""
+        near = self._route.near_m / 2.0
+        return [each for each in choices if all(math.dist(each.place, other) >= near for other in self._done + self._stood)]
 
     def by_direction(self, belief: Belief, groups: Groups) -> Decision | None:
         """Return the decision of stage 1; None if no direction is the best, or the best one leads nowhere."""
@@ -196,30 +208,57 @@ class TwoStagePlanner:
         worth = self._outlook.worth(belief, groups, here, points)
         return float(ways[np.argmax(worth >= 1.0)]) if (worth >= 1.0).any() else None
 
-    def _by_frontier(self, belief: Belief, groups: Groups, space: CommonSpace) -> Decision | None:
-        """Return the way to a frontier: of those seen last, the best (depth first); None if none is of use."""
-        known = [each for each in self._known(belief, space) if not self._is_done(each.place)]
+    def _by_place(self, belief: Belief, groups: Groups, space: CommonSpace) -> Decision:
+        """Return the way to the best frontier or view, or towards a frontier that is blocked; the end if there is none."""
+        known = self._known(belief, space)
         points = [(at.x, at.y) for at in (self._route.in_map(belief, space, each.place) for each in known)]
         worth = self._outlook.worth(belief, groups, space.here, points)
         costs = [self._route.cost_m(belief, space, each.place) for each in known]
-        order = sorted(range(len(known)), key=lambda at: (known[at].born, worth[at] / (1.0 + costs[at])), reverse=True)
-        for at in order:
-            place = known[at].place
-            drive = self._route.towards(belief, space, place) if worth[at] >= 1.0 and math.isfinite(costs[at]) else None
+        of_use = [at for at in range(len(known)) if worth[at] >= 1.0]
+        stages = ["frontier" if each.born == self._choices else "backtrack" for each in known]
+        frontiers = self._fresh(
+            _Choice(float(worth[at]), costs[at], known[at].place, stages[at]) for at in of_use if math.isfinite(costs[at])
+        )
+        numbers = space.views(_VIEW_EVERY)
+        views = self._views(belief, groups, space, numbers)
+        blocked = [points[at] for at in of_use if math.isinf(costs[at])]
+        found = self._best(belief, space, frontiers + views)
+        found = found or self._best(belief, space, self._approaches(belief, space, blocked))
+        if found is not None:
+            return found
+        if self._done and self._rounds < _ROUNDS:  # some of them were not reached, and may be now
+            self._rounds += 1
+            self._done.clear()
+            return self._by_place(belief, groups, space)
+        apart_m = _VIEW_EVERY * self._route.spacing_m
+        reason = f"none of {len(numbers)} views {apart_m:g} m apart that can be reached safely is left that tells possible places apart"
+        return Decision(None, "exhausted", reason)
+
+    def _best(self, belief: Belief, space: CommonSpace, choices: list[_Choice]) -> Decision | None:
+        """Set out to that of some places which tells most apart for what it costs; None if none can be driven to."""
+        for best in sorted(choices, key=lambda each: -each.value):
+            drive = self._route.towards(belief, space, best.place)
             if drive is not None:
-                stage = "frontier" if known[at].born == self._choices else "backtrack"
-                self._set_out(place, stage)
-                return Decision(drive, stage, f"the best of {len(known)} frontiers", place)
-        for at in order:  # nearer to one that cannot be reached yet, where less may be unknown
-            number = space.towards(*points[at]) if worth[at] >= 1.0 and math.isinf(costs[at]) else None
-            place = (math.inf, math.inf) if number is None else self._route.in_start(belief, space, *space.point(number))
-            if number is None or self._is_done(place):
-                continue
-            drive = self._route.towards(belief, space, place)
-            if drive is not None:
-                self._set_out(place, "view")
-                return Decision(drive, "view", "as near as possible to a frontier that cannot be reached safely yet", place)
+                self._done.append(best.place)
+                self._target, self._tried_here = best, False
+                self._choices += best.stage == "frontier"
+                return Decision(drive, best.stage, f"the best of {len(choices)} places, {best.cost_m:.1f} m on", best.place)
         return None
+
+    def _views(self, belief: Belief, groups: Groups, space: CommonSpace, numbers: list[int]) -> list[_Choice]:
+        """Return the places of a lattice from which something is told apart."""
+        points = [space.point(number) for number in numbers]
+        worth = self._outlook.worth(belief, groups, space.here, points)
+        return self._fresh(
+            _Choice(float(worth[at]), space.cost_m(numbers[at]), self._route.in_start(belief, space, *points[at]), "view")
+            for at in np.flatnonzero(worth).tolist()
+        )
+
+    def _approaches(self, belief: Belief, space: CommonSpace, blocked: list[Place]) -> list[_Choice]:
+        """Return places as near as possible to frontiers that cannot be reached safely yet: nearer to them, less may be unknown."""
+        numbers = [number for number in (space.towards(*point) for point in blocked) if number is not None]
+        found = [_Choice(1.0, space.cost_m(each), self._route.in_start(belief, space, *space.point(each)), "approach") for each in numbers]
+        return self._fresh(found)
 
     def _known(self, belief: Belief, space: CommonSpace) -> list[_Open]:
         """Return the frontiers that are still there, each since when it is known."""
@@ -231,20 +270,3 @@ class TwoStagePlanner:
             found.append(_Open(place, min(before, default=self._choices)))
         self._open = found
         return found
-
-    def _by_view(self, belief: Belief, groups: Groups, space: CommonSpace) -> Decision:
-        """Return the way to the view that tells most places apart for what it costs; the end if there is none."""
-        numbers = space.views(_VIEW_EVERY)
-        points = [space.point(number) for number in numbers]
-        values = self._outlook.worth(belief, groups, space.here, points) / [1.0 + space.cost_m(number) for number in numbers]
-        order = sorted((at for at in range(len(numbers)) if values[at]), key=lambda at: -float(values[at]))
-        for at in order:
-            place = self._route.in_start(belief, space, *points[at])
-            drive = None if self._is_done(place) else self._route.towards(belief, space, place)
-            if drive is not None:
-                self._set_out(place, "view")
-                return Decision(drive, "view", f"the best of {len(order)} views that tell possible places apart", place)
-        apart_m = _VIEW_EVERY * self._route.spacing_m
-        tried = f", but for {len(order)} that it has looked from" if order else ""
-        reason = f"none of {len(numbers)} views {apart_m:g} m apart that can be reached safely tells the possible places apart{tried}"
-        return Decision(None, "exhausted", reason)
