@@ -22,12 +22,22 @@ class Decision:
         In words.
     target
         Where it leads in the end, x and y in metres in the frame of the robot at its start; None if it has no target.
+    goes_on
+        Whether it goes on with what the decision before it has begun.
+    since
+        If the target is a frontier: the number of the decision that was the first to know it, counted from 1. A smaller number than that of
+        the decision itself means that the robot drives back.
+    open
+        Those numbers of all frontiers that are left besides the target.
     """
 
     drive: Drive | None
     stage: str
     reason: str
     target: tuple[float, float] | None = None
+    goes_on: bool = False
+    since: int | None = None
+    open: tuple[int, ...] = ()
 
 
 class Planner(Protocol[BeliefT]):

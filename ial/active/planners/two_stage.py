@@ -5,6 +5,7 @@ on the way makes the set smaller. Moves are those that are safe for every possib
 that would tell possible places apart.
 """
 
+import dataclasses
 import math
 from dataclasses import dataclass, field
 
@@ -46,7 +47,7 @@ class Options:
 
 @dataclass(frozen=True)
 class _Open:
-    """A frontier as it is remembered: where it is in the frame of the start, and at which choice it was first seen."""
+    """A frontier as it is remembered: where it is in the frame of the start, and which decision was the first to know it."""
 
     place: Place
     born: int
@@ -90,20 +91,26 @@ class TwoStagePlanner:
         self._leg: _Leg | None = None
         self._target: _Target | None = None
         self._tried_here = False
-        self._choices = 0
+        self._decisions = 0
 
     def __repr__(self) -> str:
-        return f"<TwoStagePlanner after {self._choices} choices, {len(self._open)} open frontiers>"
+        return f"<TwoStagePlanner after {self._decisions} decisions, {len(self._open)} open frontiers>"
 
     def choose(self, belief: Belief) -> Decision:
         """Return the next decision."""
+        self._decisions += 1
+        decision = self._chosen(belief)
+        target = None if self._target is None else self._target.place
+        left = (each.born for each in self._open if each.place != target and each.place not in self._done)
+        return dataclasses.replace(decision, open=tuple(sorted(left)))
+
+    def _chosen(self, belief: Belief) -> Decision:
         if belief.view is not None:
             self._area.add(belief.view)
         groups = belief.groups()
         going_on = self._further(belief, groups)
         if going_on is not None:
             return going_on
-        self._choices += 1
         if not self._tried_here and len(groups) > 1:
             self._tried_here = True
             decision = self.by_direction(belief, groups)
@@ -121,12 +128,12 @@ class TwoStagePlanner:
                 self._leg.left_m -= drive.distance_m
                 if self._leg.left_m <= 0.0:
                     self._leg = None
-                return Decision(drive, "direction", "further in the same direction")
+                return Decision(drive, "direction", "further in the same direction", goes_on=True)
             self._leg = None
         if self._target is not None:
             drive = self._route.towards(belief, self._route.space(belief, groups), self._target.place)
             if drive is not None:
-                return Decision(drive, self._target.stage, "further to the same place", self._target.place)
+                return Decision(drive, self._target.stage, "further to the same place", self._target.place, goes_on=True)
             self._done.append(self._target.place)
             self._target, self._tried_here = None, False
         return None
@@ -161,9 +168,9 @@ class TwoStagePlanner:
         for best in sorted(candidates, key=scores.__getitem__, reverse=True):
             drive = self._route.towards(belief, space, best.place)
             if drive is not None:
-                stage = "frontier" if best.born == self._choices else "backtrack"
+                stage = "frontier" if best.born == self._decisions else "backtrack"
                 self._target, self._tried_here = _Target(best.place, stage), False
-                return Decision(drive, stage, f"the best of {len(candidates)} frontiers", best.place)
+                return Decision(drive, stage, f"the best of {len(candidates)} frontiers", best.place, since=best.born)
             self._done.append(best.place)
         return None
 
@@ -176,7 +183,7 @@ class TwoStagePlanner:
             if any(math.dist(place, done) < near for done in self._done):
                 continue
             before = [old.born for old in self._open if math.dist(place, old.place) < near]
-            found.append(_Open(place, min(before, default=self._choices)))
+            found.append(_Open(place, min(before, default=self._decisions)))
         self._open = found
         return found
 

@@ -12,9 +12,9 @@ import typer
 
 from ial.cli.lidar import stream
 from ial.cli.lidar.bounds import _FILES as BOUNDS_FILES
-from ial.cli.lidar.job import FILES
 from ial.cli.main import app
 from ial.datasets.sample import sample_map_path, sample_recording_path
+from ial.results.lidar.run_results import FILES
 
 Cli = Callable[..., Any]
 Refused = Callable[..., str]
