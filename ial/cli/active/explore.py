@@ -15,7 +15,7 @@ NEVER_LOCALIZED = 3
 
 
 def explore(
-    map_choice: given.MapChoice = "plan:corridors",
+    map_choice: given.MapChoice = None,
     start: given.Start = None,
     planner: given.Planning = "direction",
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Where to write; out/explore-<map>-<time> if it is left out.")] = None,
@@ -58,6 +58,8 @@ def explore(
     from ial.cli.lidar.config_file import resolve
     from ial.results.active.film import check_film_name
 
+    if map_choice is None:
+        map_choice, start = given.EMBEDDED_MAP, start or given.EMBEDDED_START
     surroundings = Surroundings(map_choice, world, semantics, map_topic)
     simulated = Simulated(radius, range_m, beams, fov, range_error_m, bearing_error_rad, bad_beams, adversarial)
     if clearance is not None:

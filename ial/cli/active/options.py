@@ -8,15 +8,18 @@ import typer
 SPARE_M = 0.15
 """By how much the clearance is larger than the radius, if nobody says (m)."""
 
+EMBEDDED_MAP, EMBEDDED_START = "plan:office", (17.6, 9.8, -1.3)
+"""What is explored if nobody says: from here, a robot needs both stages of the planner."""
+
 PlannerName = Literal["direction", "entropy", "target", "random", "frontier"]
 
 MapChoice = Annotated[
-    str,
+    str | None,
     typer.Option(
         "--map",
         metavar="MAP",
         help="A map.yaml, a recording with a nav_msgs/OccupancyGrid topic, or plan:NAME for an embedded floor plan: rooms, office, "
-        "corridors, curved, detached, ring.",
+        "corridors, curved, detached, ring. The office if it is left out.",
     ),
 ]
 WorldChoice = Annotated[
@@ -25,7 +28,10 @@ WorldChoice = Annotated[
 ]
 Start = Annotated[
     tuple[float, float, float] | None,
-    typer.Option(metavar="X Y θ", help="Where the robot starts, in metres and radians; drawn with the seed if left out."),
+    typer.Option(
+        metavar="X Y θ",
+        help="Where the robot starts, in metres and radians; drawn with the seed if left out; without --map, a place of the office.",
+    ),
 ]
 Planning = Annotated[PlannerName, typer.Option(help="What chooses the next drive.")]
 Drives = Annotated[int, typer.Option(metavar="N", help="Give up after so many drives.")]

@@ -47,7 +47,7 @@ class Planning:
         given = {"--alpha": self.alpha is not None, "--beta": self.beta is not None, "--raw": self.raw, "--guaranteed": self.guaranteed}
         foreign = [option for option, said in given.items() if said]
         if foreign and self.name != "direction":
-            raise ConfigError(f"{', '.join(foreign)}: the planner {self.name} has no such option; leave it out, or take --planner direction")
+            raise ConfigError(f"{', '.join(foreign)}: not an option of the planner {self.name}; leave it out, or take --planner direction")
         self._weights()
 
     def planner(self, belief: Belief) -> Planner[Belief]:

@@ -55,7 +55,7 @@ class Simulated:
         if not 0.0 <= self.radius_m < math.inf:
             raise ConfigError(f"--radius is {self.radius_m:g}; give 0 or a positive length in metres")
         if not _BLIND_M < self.range_m < math.inf:
-            raise ConfigError(f"--range is {self.range_m:g}; give a length in metres above {_BLIND_M:g}, nearer than which a lidar is blind")
+            raise ConfigError(f"--range is {self.range_m:g}; give a length above {_BLIND_M:g} m, nearer than which a lidar is blind")
         if self.beams < 1:
             raise ConfigError(f"--beams is {self.beams}; a lidar needs at least 1 beam")
         if not 0.0 < self.fov_deg <= 360.0:
@@ -84,10 +84,10 @@ class Simulated:
         Parameters
         ----------
         same_world
-            Whether the robot drives in the map itself; else it is not known by how much that is wrong.
+            Whether the robot drives in the map itself; else it is not known how many beams the map makes bad.
         """
         found: dict[str, Any] = {"range_error_m": self.range_error_m, "bearing_error_rad": self.bearing_error_rad, "motion": _MOTION}
-        return {**found, "map_error_m": 0.0, "outliers": self.bad_beams} if same_world else found
+        return {**found, "outliers": self.bad_beams} if same_world else found
 
     def robot(self, world: OccupancyGrid, belief: Belief, start: tuple[float, float, float] | None, seed: int) -> SimulatedRobot:
         """Return the robot where it starts.

@@ -1,5 +1,6 @@
 """`ExplorationAnimation`: a film of an exploration, one frame for each scan."""
 
+import io
 import math
 import textwrap
 from contextlib import AbstractContextManager
@@ -85,7 +86,7 @@ class ExplorationAnimation(AbstractContextManager["ExplorationAnimation"]):
     def _frame(self, leg: Leg, following: Leg | None) -> Frame:
         """Return the frame after a leg, with the decision of the following one."""
         figure = Figure(figsize=(_WIDTH_IN, self._height_in), dpi=_DPI, facecolor="white")
-        canvas = FigureCanvasAgg(figure)
+        FigureCanvasAgg(figure)
         axes = figure.add_axes(self._box)
         self._layer.draw(axes)
         self._layer.draw_pixels(axes, _pixels(leg.estimate, self._grid), self._grid.resolution)
@@ -98,8 +99,10 @@ class ExplorationAnimation(AbstractContextManager["ExplorationAnimation"]):
         for spine in axes.spines.values():
             spine.set_color(EDGE)
         self._write(figure, leg, following)
-        canvas.draw()
-        return np.ascontiguousarray(np.asarray(canvas.buffer_rgba())[:, :, :3])
+        drawn = io.BytesIO()
+        figure.savefig(drawn, format="rgba", dpi=_DPI)
+        rows, columns = round(self._height_in * _DPI), round(_WIDTH_IN * _DPI)
+        return np.ascontiguousarray(np.frombuffer(drawn.getvalue(), dtype=np.uint8).reshape(rows, columns, 4)[:, :, :3])
 
     def _draw_robot(self, axes: Axes, pose: Pose, following: Leg | None, colour: str) -> None:
         """Draw a possible robot, and where it would drive."""

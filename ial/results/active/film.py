@@ -114,7 +114,8 @@ class Film(AbstractContextManager["Film"]):
             while held.grab():
                 count += 1
             held.release()
-            if count != self.frames + _LAST - 1:
-                raise OutputError(f"{self.path}: OpenCV has written {count} of {self.frames + _LAST - 1} frames; give a name that ends in .gif")
+            wanted = self.frames + _LAST - 1
+            if count != wanted:
+                raise OutputError(f"{self.path}: OpenCV has written {count} frames of {wanted}; give a name that ends in .gif")
         with whole_files(self.path, what="the film") as (lent,):
             shutil.copyfile(self._draft, lent)

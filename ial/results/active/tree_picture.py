@@ -92,7 +92,9 @@ class TreePicture(AbstractContextManager["TreePicture"]):
         drives, open_ones = sum(each.drives for each in nodes), sum(each.left for each in nodes)
         figure.text(left, 1.0 - 0.1 / height, self._name, ha="left", va="top", fontsize=12, fontweight="bold")
         end = f"{nodes[-1].status} after {drives} drives" if nodes else "no decision"
-        remark = f"{end}; {open_ones} frontier{'s' * (open_ones != 1)} left. In a node: hypotheses after it; below: its first decision, drives"
+        remark = (
+            f"{end}; {open_ones} frontier{'s' * (open_ones != 1)} left. In a node: hypotheses after it; below: its first decision, drives"
+        )
         figure.text(left, 1.0 - 0.36 / height, remark, ha="left", va="top", fontsize=8.5, color="#444444")
         present = {each.stage for each in nodes}
         keys = [Line2D([], [], color=colour, marker="o", markersize=8, linestyle="none", label=stage) for stage, colour in _STAGES.items()]
