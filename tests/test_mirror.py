@@ -98,6 +98,7 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
         "maps/grids/test_cell_index.py": ["cell_table"],
         "maps/grids/test_map_file.py": ["map_warning"],
         "maps/polygons/test_polygon.py": ["ring"],
+        "results/active/test_decisions.py": ["leg"],
         "results/lidar/test_picture.py": ["../palette"],
         "results/lidar/test_result_folder.py": ["sink"],
     },
@@ -112,6 +113,7 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
         "study/test_failures.py": ["../results/lidar/failure_picture"],
     },
     "commands and what they print, tried as a user runs them": {
+        "cli/active/test_explore.py": ["job", "options", "planning", "report", "simulated", "surroundings"],
         "cli/bounce/test_advise.py": ["advice_report"],
         "cli/bounce/test_build.py": ["options", "report"],
         "cli/bounce/test_log_run.py": ["log_outcome"],
@@ -119,6 +121,7 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
         "cli/bounce/test_run.py": ["observed", "outcome"],
         "cli/lidar/test_answer_file.py": ["streaming"],
         "cli/lidar/test_bounds.py": ["bounds_report"],
+        "cli/lidar/test_localize.py": ["../../results/lidar/run_results"],
         "cli/lidar/test_warm.py": ["../../lidar/warming"],
         "cli/lidar/test_where.py": ["where_report"],
         "cli/shell/test_outputs.py": ["../lidar/job", "out_folder"],

@@ -76,7 +76,7 @@ class Film(AbstractContextManager["Film"]):
         """
         if self._draft.suffix == ".gif":
             # Few colours are enough for a drawing; without them a long film would fill the memory.
-            self._pictures.append(Image.fromarray(frame).quantize(128, dither=Image.Dither.NONE))
+            self._pictures.append(Image.fromarray(frame).quantize(256, dither=Image.Dither.NONE))
         else:
             self._write(frame)
         self._last = frame

@@ -19,6 +19,7 @@ _NODE_IN, _LANE_IN = 0.62, 0.8  # the room that a node takes, and a row of them
 _LEAST_IN, _MOST_IN = 8.0, 60.0
 _MOST_LEAVES = 4  # that are drawn at one node; of more, their number is
 _STAGES = {
+    "first look": EDGE,
     "direction": HYPOTHESES[0],
     "frontier": HYPOTHESES[2],
     "backtrack": HYPOTHESES[1],
