@@ -28,7 +28,7 @@ class Decision:
         If the target is a frontier: the number of the decision that was the first to know it, counted from 1. A smaller number than that of
         the decision itself means that the robot drives back.
     open
-        Those numbers of all frontiers that are left besides the target.
+        Those numbers of all frontiers that are left besides the target, as they were when a planner last looked for frontiers.
     """
 
     drive: Drive | None

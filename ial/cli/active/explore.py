@@ -46,7 +46,8 @@ def explore(
 ) -> None:
     """Drive a simulated lidar robot that knows its map, but not its place, until its place is known.
 
-    No drive brings it nearer to anything than its radius, wherever it may still be. Errors of its odometry are those of the configuration.
+    As far as the map is right, no drive brings it nearer to anything than its radius, wherever it may still be. Errors of its odometry are
+    as large as the configuration says.
     Writes what `ial localize` writes, and decisions.jsonl, tree.png and truth.tum.
     """
     from ial.active.safe_way import Distances

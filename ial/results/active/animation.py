@@ -131,13 +131,14 @@ class ExplorationAnimation(AbstractContextManager["ExplorationAnimation"]):
         """Write the title, the keys, and what is decided."""
         left, line = _BESIDE_IN / _WIDTH_IN, 1.0 / self._height_in
         figure.text(left, 1.0 - 0.08 * line, self._name, ha="left", va="top", fontsize=11, fontweight="bold")
-        state = f"{leg.estimate.status}: {leg.hypotheses} hypothes{'is' if leg.hypotheses == 1 else 'es'} after {leg.number} drives"
+        left_over = f"{leg.hypotheses} hypothes{'is' if leg.hypotheses == 1 else 'es'}"
+        state = f"{leg.estimate.status}: {left_over} after {leg.number} drive{'s' * (leg.number != 1)}"
         colour = STATUS_COLOURS[leg.estimate.status]
         figure.text(left, 1.0 - 0.33 * line, state + ", collided" * leg.taken.collided, ha="left", va="top", fontsize=10, color=colour)
         said = "" if following is None else f"{following.number}. {following.words}"
         figure.text(left, 1.0 - 0.56 * line, textwrap.shorten(said, _LETTERS, placeholder=" …"), ha="left", va="top", fontsize=8.5)
         keys = [
-            Line2D([], [], color=HYPOTHESES[0], marker="o", markersize=7, linestyle="none", label="possible robot"),
+            Line2D([], [], color=HYPOTHESES[0], marker="o", markersize=7, linestyle="none", label="possible robots, 64 at most"),
             Line2D([], [], color=TRUTH, marker="o", markersize=9, fillstyle="none", markeredgewidth=2.0, label="true robot and its path"),
             Line2D([], [], color=TRUTH, marker="*", markersize=9, linestyle="none", label="its target"),
             Line2D([], [], color=OCCUPIED, marker=">", markersize=5, linewidth=1.0, label="next drive"),

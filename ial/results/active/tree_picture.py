@@ -92,7 +92,7 @@ class TreePicture(AbstractContextManager["TreePicture"]):
         left = 0.25 / width
         drives, open_ones = sum(each.drives for each in nodes), sum(each.left for each in nodes)
         figure.text(left, 1.0 - 0.1 / height, self._name, ha="left", va="top", fontsize=12, fontweight="bold")
-        end = f"{nodes[-1].status} after {drives} drives" if nodes else "no decision"
+        end = f"{nodes[-1].status} after {drives} drive{'s' * (drives != 1)}" if nodes else "no decision"
         remark = (
             f"{end}; {open_ones} frontier{'s' * (open_ones != 1)} left. In a node: hypotheses after it; below: its first decision, drives"
         )

@@ -55,6 +55,10 @@ def test_a_robot_in_one_of_four_rooms_is_localized(ial: Cli) -> None:
     assert [each["number"] for each in decisions] == list(range(1, len(scans)))
     assert [each["hypotheses_before"] for each in decisions] == [len(scan.hypotheses) for scan in scans[:-1]]
     assert [each["hypotheses"] for each in decisions] == [len(scan.hypotheses) for scan in scans[1:]]
+    begun = [each for each in decisions if not each["goes_on"]]
+    assert begun[0]["number"] == 1
+    assert [each["since"] for each in begun] == [each["number"] if each["stage"] == "frontier" else None for each in begun]
+    assert any(each["open"] for each in decisions)
     assert [each.stamp_ns for each in scans] == truth.stamps_ns.tolist()
     for row, scan in enumerate(scans):
         at = truth[row]
