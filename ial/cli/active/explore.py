@@ -47,7 +47,7 @@ def explore(
     """Drive a simulated lidar robot that knows its map, but not its place, until its place is known.
 
     As far as the map is right, no drive brings it nearer to anything than its radius, wherever it may still be. Errors of its odometry are
-    as large as the configuration says.
+    as large as the configuration says; if it says nothing, smaller than those that `ial localize` allows.
     Writes what `ial localize` writes, and decisions.jsonl, tree.png and truth.tum.
     """
     from ial.active.safe_way import Distances

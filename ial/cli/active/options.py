@@ -42,7 +42,7 @@ Clearance = Annotated[
     typer.Option(
         metavar="M",
         help="What it keeps to everything where it looks, from its centre: `robot_radius_m` of the configuration.",
-        show_default="0.15 m more than the radius",
+        show_default=f"{SPARE_M:g} m more than the radius",
     ),
 ]
 Range = Annotated[float, typer.Option("--range", metavar="M", help="How far the lidar sees.")]

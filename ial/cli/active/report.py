@@ -49,6 +49,13 @@ def report(last: Leg, record: Mapping[str, Any]) -> Iterator[str]:
         yield f"      and {len(found) - _MOST_PLACES} more"
     if ended["collisions"]:
         yield f"collided: {ended['collisions']} drive{'s' * (ended['collisions'] != 1)} ended early, where the robot touched something"
+    scans = record["scans"]
+    contradicted = sum(scans["by_status"].get(status, 0) for status in ("lost", "blind"))
+    if contradicted:
+        yield (
+            f"doubtful: {contradicted} of {scans['processed']} scans contradict what was known before, so the map or a bound is wrong, and "
+            "so may be all that is said above"
+        )
     yield from measured(record["measures"])
 
 

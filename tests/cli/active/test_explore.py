@@ -4,7 +4,7 @@ import json
 import re
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import cv2
 import numpy as np
@@ -12,8 +12,9 @@ import pytest
 import yaml
 
 from ial.cli.active.job import FILES
+from ial.cli.active.options import MapChoice
 from ial.datasets.trajectory import read_tum
-from ial.maps.grids.alike_plans import alike_plan
+from ial.maps.grids.alike_plans import alike_plan, plan_names
 from ial.maps.grids.map_file import write_map
 from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.results.lidar.enclosures import read_enclosures
@@ -150,6 +151,15 @@ def test_a_collision_in_another_world_than_the_map_is_an_event(ial: Cli) -> None
 
 
 @pytest.mark.slow
+def test_scans_that_contradict_the_map_make_what_is_said_doubtful(ial: Cli) -> None:
+    words = ("--world", "plan:office", "--seed", 2, "--outliers", 0, "--drives", 0)
+    result = ial("explore", "--map", "plan:ring", *words, "--out", "run")
+    assert result.exit_code == 3
+    assert "\ngave up after 0 drives, 0.00 m: blind, 1 place\n" in result.stdout
+    assert "\ndoubtful: 1 of 1 scans contradict what was known before" in result.stdout
+
+
+@pytest.mark.slow
 def test_bounds_follow_from_simulated_errors_unless_they_are_said(ial: Cli) -> None:
     def config(*options: object) -> Any:
         ial(*ROOMS, "--drives", 0, "--out", "run", "--overwrite", "--range-error-m", 0.05, "--bad-beams", 3, *options)
@@ -191,6 +201,11 @@ def test_bounds_follow_from_simulated_errors_unless_they_are_said(ial: Cli) -> N
 )
 def test_bad_input_is_refused_in_one_line(refused: Refused, options: list[object], words: str) -> None:
     assert words in refused("explore", "--out", "run", *options)
+
+
+def test_the_help_names_every_plan() -> None:
+    (plans,) = re.findall(r"floor plan: ([\w, ]+)\.", get_args(MapChoice)[1].help)
+    assert tuple(plans.split(", ")) == plan_names()
 
 
 def test_an_unknown_planner_is_a_wrong_usage(ial: Cli) -> None:
