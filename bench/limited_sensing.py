@@ -139,17 +139,14 @@ class OdometerRuns:
 
     def _run(self, name: str, model: OdometerModel, seed: int) -> None:
         robot = worlds.robot(self.environments[name], seed, self.bounds)
-        session = Session({name: model}, robot, 60 if self.bounds is None else 30)
-        drive, held = session._drive, []
+        held: list[bool] = []
 
-        def watched(command, reason):  # type: ignore[no-untyped-def]
-            driven = drive(command, reason)
+        def watched(commands: int) -> None:
             states = session.states[name]
             if not isinstance(states, Chord):
                 held.append(states.holds(robot.x, robot.y, robot.heading_rad))
-            return driven
 
-        session._drive = watched  # type: ignore[method-assign]
+        session = Session({name: model}, robot, 60 if self.bounds is None else 30, watched)
         begun = time.perf_counter()
         found = session.run()
         self.seconds.append(time.perf_counter() - begun)

@@ -1,4 +1,4 @@
-"""The README's Python, as a user would check it: against the types that the installed package carries (``py.typed``)."""
+"""The README's Python and a robot of one's own, as a user would check them: against the types that ial carries (``py.typed``)."""
 
 import os
 import re
@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 README = Path(__file__).resolve().parent.parent / "README.md"
+OWN_ROBOT = (README.parent / "tests" / "active" / "own_robot.py").read_text(encoding="utf-8")
 SNIPPETS = re.findall(r"^```python\n(.*?)^```$", README.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
 
 needs_mypy = pytest.mark.skipif(find_spec("mypy") is None, reason="mypy is not installed; it comes with `make .venv/.lint`")
@@ -40,10 +41,13 @@ def test_the_readme_has_snippets() -> None:
 @pytest.mark.slow
 @needs_mypy
 def test_the_snippets_are_well_typed_and_mypy_knows_the_types(tmp_path: Path) -> None:
-    wrong = ["estimate.hypotheses[0].nonsense", "pave(ring, 3, precision=0.02)"]
-    lines = "\n".join([*SNIPPETS, *wrong]).splitlines()
+    wrong = ["estimate.hypotheses[0].nonsense", "pave(ring, 3, precision=0.02)", "explore(OdometerBelief({}), own, planner)"]
+    other = "from ial.odometer import OdometerBelief\nown: OwnRobot\nplanner: TwoStagePlanner\n"
+    lines = "\n".join([OWN_ROBOT, *SNIPPETS, other, *wrong]).splitlines()
     said = [line for line in checked(tmp_path, "\n".join(lines) + "\n").splitlines() if line.startswith("program.py:")]
     errors = [line for line in said if ": error:" in line]
-    assert [line.split(":")[1] for line in errors] == [str(len(lines) - 1), str(len(lines))], said
+    errors = list({line.split(":")[1]: line for line in reversed(errors)}.values())[::-1]  # the first of each line
+    assert [line.split(":")[1] for line in errors] == [str(len(lines) - 2), str(len(lines) - 1), str(len(lines))], said
     assert '"Hypothesis" has no attribute "nonsense"' in errors[0]
     assert "[arg-type]" in errors[1]
+    assert 'of "explore"' in errors[2], "a lidar is no odometer"

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from ial.active.direction_choice import Weights as Weights
     from ial.active.exploration import ExplorationStep as ExplorationStep
     from ial.active.exploration import explore as explore
+    from ial.active.knowledge import Knowledge as Knowledge
     from ial.active.planners.entropy import EntropyPlanner as EntropyPlanner
     from ial.active.planners.entropy import TargetPlanner as TargetPlanner
     from ial.active.planners.nearest_frontier import NearestFrontierPlanner as NearestFrontierPlanner
@@ -33,6 +34,7 @@ else:
             "decision": ("Decision", "Planner"),
             "direction_choice": ("Weights",),
             "exploration": ("ExplorationStep", "explore"),
+            "knowledge": ("Knowledge",),
             "planners.entropy": ("EntropyPlanner", "TargetPlanner"),
             "planners.nearest_frontier": ("NearestFrontierPlanner",),
             "planners.random_walk": ("RandomPlanner",),

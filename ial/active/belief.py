@@ -45,7 +45,12 @@ class Groups:
         return len(self.poses)
 
     def __repr__(self) -> str:
-        return f"<Groups: {len(self)} in {len(set(self.component.tolist()))} connected parts>"
+        return f"<Groups: {len(self)} in {self.parts} connected parts>"
+
+    @property
+    def parts(self) -> int:
+        """How many connected parts of the set there are."""
+        return len(set(self.component.tolist()))
 
 
 class Belief:
@@ -123,9 +128,26 @@ class Belief:
         """All poses that are possible, in the grid's frame."""
         return self.localizer.poses.boxes if self.estimate is None else self.estimate.poses.boxes
 
-    def update(self, motion: Motion | None, scan: LaserScan) -> Estimate:
-        """Take a motion, None before the first scan, and a scan."""
+    def update(self, motion: Motion | None, scan: LaserScan, *, collided: bool = False) -> Estimate:
+        """Take a motion, and a scan.
+
+        Parameters
+        ----------
+        motion
+            None before the first scan.
+        scan
+            What the robot sees after it.
+        collided
+            Whether it touched something on its way. Nothing follows from that yet.
+
+        Raises
+        ------
+        ConfigError
+            If the first scan has no beam that tells anything.
+        """
         self.estimate = self.localizer.update(motion, scan)
+        if motion is None and self.estimate.uninformative:
+            raise ConfigError("the first scan has no usable beam, so nothing can be learned by driving; check the lidar and its limits")
         self.motion, self.scan = motion, scan
         if motion is not None:
             middle = 0.5 * (motion.lower + motion.upper)

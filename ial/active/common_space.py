@@ -60,9 +60,9 @@ class CommonSpace:
         wanted = distances.clearance_m - distances.radius_m + spacing_m
         self._dear = 1.0 + _DEAREST * np.clip((wanted - spare) / wanted, 0.0, 1.0)
         self._free = free
-        self._graph = self._linked(free)
+        self._own = field.at(self._x, self._y) >= distances.radius_m
         begin = self._place(self.here.x, self.here.y)
-        (self._ways,), (self._before,) = dijkstra(self._graph, directed=False, indices=[begin], return_predecessors=True)
+        (self._ways,), (self._before,) = dijkstra(self._linked(free), directed=False, indices=[begin], return_predecessors=True)
 
     def __repr__(self) -> str:
         return f"<CommonSpace: {int(self._free.sum())} of {len(self._free)} places>"
@@ -92,6 +92,21 @@ class CommonSpace:
         at = int(np.argmin(away))
         return at if away[at] <= most_m else None
 
+    def towards(self, x: float, y: float) -> int | None:
+        """Return the place that can be reached from which the way on to a point is the shortest, if the robot is where it is seen from.
+
+        None if there is no way, even so.
+        """
+        away = np.hypot(self._x - x, self._y - y)
+        away[~self._own] = np.inf
+        target = int(np.argmin(away))
+        if away[target] > 2.0 * self.spacing_m:
+            return None
+        (left,) = dijkstra(self._linked(self._own | self._free), directed=False, indices=[target])
+        left[np.isinf(self._ways)] = np.inf
+        at = int(np.argmin(left))
+        return at if np.isfinite(left[at]) else None
+
     def views(self, every: int) -> list[int]:
         """Return the places that can be reached, one in so many rows and columns."""
         row, column = np.divmod(np.arange(len(self._x)), self._columns)
@@ -120,11 +135,12 @@ def _seen_from(pose: Pose, x: FloatArray, y: FloatArray) -> tuple[FloatArray, Fl
     return cosine * (x - pose.x) + sine * (y - pose.y), cosine * (y - pose.y) - sine * (x - pose.x)
 
 
-def moved_along(poses: FloatArray, ahead: float, aside: float) -> FloatArray:
-    """Return where poses (x, y, θ) come if each moves by so much ahead and to its left, with its heading kept."""
+def moved_along(poses: FloatArray, ahead: npt.ArrayLike, aside: npt.ArrayLike) -> FloatArray:
+    """Return where poses (x, y, θ) come if each moves by so much ahead and to its left, with its heading kept; shape (moves, poses, 3)."""
     cosine, sine = np.cos(poses[:, 2]), np.sin(poses[:, 2])
-    x, y = poses[:, 0] + cosine * ahead - sine * aside, poses[:, 1] + sine * ahead + cosine * aside
-    return np.column_stack([x, y, poses[:, 2]])
+    forth, left = np.asarray(ahead)[:, None], np.asarray(aside)[:, None]
+    x, y = poses[:, 0] + cosine * forth - sine * left, poses[:, 1] + sine * forth + cosine * left
+    return np.stack([x, y, np.broadcast_to(poses[:, 2], x.shape)], axis=2)
 
 
 def in_robot_frame(pose: Pose, points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:

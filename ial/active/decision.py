@@ -17,7 +17,8 @@ class Decision:
     drive
         The command; None if nothing is left to do.
     stage
-        What chose it: ``direction``, ``frontier``, ``backtrack``, or the name of another planner; ``exhausted`` if nothing is left.
+        What chose it: ``direction``, ``frontier``, ``backtrack``, ``view``, ``opening`` for moves that every run begins with, or the name
+        of another planner; ``exhausted`` if nothing is left.
     reason
         In words.
     target
@@ -25,8 +26,7 @@ class Decision:
     goes_on
         Whether it goes on with what the decision before it has begun.
     since
-        If the target is a frontier: the number of the decision that was the first to know it, counted from 1. A smaller number than that of
-        the decision itself means that the robot drives back.
+        If the target is a frontier: the number of the decision that was the first to know it, counted from 1.
     open
         Those numbers of all frontiers that are left besides the target, as they were when a planner last looked for frontiers.
     """

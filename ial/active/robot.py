@@ -16,7 +16,7 @@ class Drive:
     turn_rad
         By how much to turn, counter-clockwise.
     distance_m
-        How far to drive then.
+        How far to drive then; infinite for a robot that drives until a wall stops it.
     """
 
     turn_rad: float
@@ -35,6 +35,7 @@ class Driven(Generic[MotionT, ReadingT]):
         What the robot sees where it stopped.
     collided
         Whether it touched something and stopped early. The motion is right all the same, but one of the assumptions of `Belief` was not.
+        A robot that drives until a wall stops it does not collide with that wall.
     """
 
     motion: MotionT
@@ -46,7 +47,7 @@ class Robot(Protocol[MotionT, ReadingT]):
     """Looks and drives. A lidar robot reads a scan; one with odometers alone reads how far it came."""
 
     def look(self) -> ReadingT:
-        """Return what the robot sees where it is."""
+        """Return what the robot sees where it is; one that sees nothing without driving drives to the wall ahead for it."""
         ...
 
     def drive(self, command: Drive) -> Driven[MotionT, ReadingT]:

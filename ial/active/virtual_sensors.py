@@ -89,18 +89,27 @@ class VirtualSensors:
         """The diagonal of the map: no reading is larger."""
         return math.hypot(self.grid.width_m, self.grid.height_m)
 
-    def readings(self, poses: FloatArray, turns_rad: FloatArray) -> FloatArray:
+    def readings(self, poses: FloatArray, turns_rad: FloatArray, most_m: float = math.inf) -> FloatArray:
         """Return what is read in poses (x, y, θ) of the grid's frame, in directions that begin at their headings.
+
+        Parameters
+        ----------
+        poses
+            Float64 of shape (..., 3).
+        turns_rad
+            The directions.
+        most_m
+            What a ray that meets nothing so near reads.
 
         Returns
         -------
         numpy.ndarray
-            Metres, float64 of shape (poses, directions); that of a ray that leaves the map is its diagonal.
+            Metres, float64 of shape (..., directions); that of a ray that leaves the map is its diagonal.
         """
-        angles = poses[:, 2, None] + turns_rad
-        angles = np.arctan2(np.sin(angles), np.cos(angles))
-        found = cast_rays(self._mask, self.grid.resolution, poses[:, 0, None], poses[:, 1, None], angles)
-        return np.asarray(np.minimum(found, self.diameter_m))
+        angles = np.remainder(poses[..., 2, None] + turns_rad + math.pi, _FULL_TURN) - math.pi
+        most = min(most_m, self.diameter_m)
+        found = cast_rays(self._mask, self.grid.resolution, poses[..., 0, None], poses[..., 1, None], angles, most)
+        return np.asarray(np.minimum(found, most))
 
     def bounds(self, boxes: Boxes, turns_rad: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return bounds of what is read from anywhere in boxes of poses: nothing occupied is nearer, and every ray meets something.

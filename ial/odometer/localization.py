@@ -1,33 +1,25 @@
 """`localize`: drives a robot with two odometers until it is known where it is, up to symmetry."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Literal, Protocol
 
+from ial.active.exploration import ExplorationStep, explore
 from ial.errors import ConfigError, ImpossibleError
 from ial.maps.polygons.polygon import Polygon
-from ial.membership import SetMembershipFilter, Worlds
+from ial.odometer.belief import FEWEST, OdometerBelief
 from ial.odometer.command import Command
+from ial.odometer.commanded_robot import CommandedRobot, Executes
+from ial.odometer.estimate import OdometerEstimate, Status
 from ial.odometer.hypotheses import Hypothesis
 from ial.odometer.model import Chord, OdometerModel, States
 from ial.odometer.odometer_bounds import OdometerBounds
-from ial.odometer.opening_moves import OpeningMoves
-from ial.odometer.pilot import Pilot
+from ial.odometer.pilot import OPENING, Pilot
 
 MOST_COMMANDS = 100
 ONLY = "environment"
 """The name of an environment that is given without one."""
-
-Status = Literal["localized", "symmetric", "ambiguous", "rejected"]
-
-
-class Executes(Protocol):
-    """A robot, real or simulated."""
-
-    def execute(self, command: Command) -> float:
-        """Turn, drive until a wall stops the robot or it has come far enough, and return how far the odometer says it came, in metres."""
 
 
 @dataclass(frozen=True)
@@ -60,9 +52,7 @@ class Localization:
     Parameters
     ----------
     status
-        `localized`: one hypothesis. `symmetric`: several that are images of each other under motions that lay the environments upon each
-        other, so that no motion of the robot can tell them apart. `ambiguous`: commands have run out, or do not make the set smaller.
-        `rejected`: no configuration explains the readings, so an assumption is false.
+        That of the last estimate. `ambiguous`: commands have run out, or do not make the set smaller.
     hypotheses
         Where the robot may be; the truth is in the boxes around one of them, as long as the assumptions hold.
     steps
@@ -148,7 +138,7 @@ def localize(
 
 
 class Session:
-    """One localization, while it goes on.
+    """One localization, while it goes on: an exploration (`ial.active.explore`) with a `Pilot`, and what it leaves.
 
     Parameters
     ----------
@@ -169,14 +159,12 @@ class Session:
         most_commands: int = MOST_COMMANDS,
         progress: Callable[[int], object] | None = None,
     ) -> None:
-        self._progress = progress
-        self._models = dict(models)
-        self._robot = robot
+        self._belief = OdometerBelief(models)
+        self._robot = CommandedRobot(robot)
         self._most = most_commands
-        self._filter: SetMembershipFilter[dict[str, States], Command, float] = SetMembershipFilter(Worlds(self._models), "absorb")
+        self._progress = progress
         self._steps: list[Step] = []
         self._trail: list[tuple[Hypothesis, ...]] = []
-        self._pilot = Pilot(self._models)
 
     def __repr__(self) -> str:
         return f"<Session: {len(self._steps)} commands>"
@@ -184,62 +172,29 @@ class Session:
     @property
     def states(self) -> Mapping[str, States]:
         """What is known now, by environment."""
-        return self._filter.states
+        return self._belief.states
 
     def run(self) -> Localization:
         """Drive until it is known where the robot is, or no command helps."""
-        first = Command(Fraction(0))
-        self._steps.append(Step(first, self._robot.execute(first), None, "to a wall"))
-        self._trail.append(())
-        candidates = self._open()
-        if self._filter.model.empty(self._filter.states):
-            return self._ended("rejected", (), candidates)
-        self._most += len(self._steps)
-        found = self._pilot.found(self._filter.states)
-        while not self._pilot.finished(found, self._filter.states):
-            planned = self._pilot.commands(found, self._filter.states)
-            if not planned or len(self._steps) >= self._most:
-                return self._ended("ambiguous", found, candidates)
-            for command, reason in planned:
-                moved = self._drive(command, reason)
-                if self._filter.model.empty(self._filter.states):
-                    return self._ended("rejected", (), candidates)
-                before, found = found, self._pilot.found(self._filter.states)
-                self._note(found)
-                if not moved or len(found) < len(before) or len(self._steps) >= self._most:
-                    break  # what was planned on is no longer so
-        return self._ended("localized" if len(found) == 1 else "symmetric", found, candidates)
-
-    def _open(self) -> int | None:
-        """Drive back from the wall and then across; return how many hypotheses that leaves."""
-        moves = OpeningMoves([model.walls for model in self._models.values()])
-        for command in moves.back():
-            if self._drive(command, "for candidates"):
+        candidates, commands = None, 0
+        for step in explore(self._belief, self._robot, Pilot(self._belief), most_drives=None):
+            if step.decision is not None and step.decision.drive is None:
+                break  # no command helps
+            found = step.estimate.hypotheses
+            self._note(step, found)
+            opening = step.decision is None or step.decision.stage == OPENING
+            if opening and found is not None and self._belief.measured >= FEWEST:
+                candidates = len(found)
+            commands += not opening
+            if commands >= self._most and not (opening and found is None):
                 break
-        for command in moves.across():
-            if self._filter.model.empty(self._filter.states):
-                break
-            if self._drive(command, "for candidates"):
-                found = self._pilot.found(self._filter.states)
-                self._note(found)
-                return len(found)
-        return None
+        states = {name: each.configurations if isinstance(each, Chord) else each for name, each in self.states.items()}
+        return Localization(self._belief.status, self._trail[-1], tuple(self._steps), candidates, states, tuple(self._trail))
 
-    def _drive(self, command: Command, reason: str) -> bool:
-        """Execute a command; return whether the robot came as far as it was told, or moved at all if it was told no distance."""
-        reading = self._robot.execute(command)
-        self._filter.update(command, reading)
-        self._steps.append(Step(command, reading, None, reason))
-        if self._progress is not None:
+    def _note(self, step: ExplorationStep[OdometerEstimate], found: tuple[Hypothesis, ...] | None) -> None:
+        command = step.estimate.command or Command(Fraction(0))
+        reason = "to a wall" if step.decision is None else step.decision.reason
+        self._steps.append(Step(command, step.estimate.reading, None if found is None else len(found), reason))
+        self._trail.append(found or ())
+        if step.decision is not None and self._progress is not None:
             self._progress(len(self._steps))
-        self._trail.append(())
-        return reading >= command.ahead_m or (math.isinf(command.ahead_m) and reading > 0.0)
-
-    def _note(self, found: Sequence[Hypothesis]) -> None:
-        last = self._steps[-1]
-        self._steps[-1] = Step(last.command, last.reading, len(found), last.reason)
-        self._trail[-1] = tuple(found)
-
-    def _ended(self, status: Status, found: Sequence[Hypothesis], candidates: int | None) -> Localization:
-        states = {name: each.configurations if isinstance(each, Chord) else each for name, each in self._filter.states.items()}
-        return Localization(status, tuple(found), tuple(self._steps), candidates, states, tuple(self._trail))

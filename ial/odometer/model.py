@@ -146,8 +146,7 @@ class OdometerModel(Model[States, Command, float]):
             If the reading is negative or not finite.
         """
         check_rounding()
-        if not 0.0 <= reading < math.inf:
-            raise StreamError(f"a robot cannot have driven {reading} m; give distances that are not negative")
+        check_distance(reading)
         turn = self.bounds.turn(motion.turn_deg)
         if reading == 0.0:
             return self._stopped(states, motion, turn)
@@ -230,6 +229,18 @@ class OdometerModel(Model[States, Command, float]):
             fine_m, fine_rad = 2.0 * fine_m, 2.0 * fine_rad
             rows = tidied(rows, fine_m, fine_rad, self.walls.lengths)
         return rows
+
+
+def check_distance(reading: float) -> None:
+    """Refuse a reading, in metres, that is no distance.
+
+    Raises
+    ------
+    StreamError
+        If it is negative or not finite.
+    """
+    if not 0.0 <= reading < math.inf:
+        raise StreamError(f"a robot cannot have driven {reading} m; give distances that are not negative")
 
 
 def _boxes(states: States) -> Configurations:

@@ -1,4 +1,4 @@
-"""`OpeningMoves`: the commands with which a robot begins that knows nothing."""
+"""`OpeningMoves`: the commands with which a robot begins that knows nothing (O'Kane and LaValle 2007, section IV-B)."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -25,9 +25,20 @@ class OpeningMoves:
     def __init__(self, worlds: Sequence[WallTable]) -> None:
         smallest = min(_smallest_corner_deg(walls) for walls in worlds)
         self.step_deg = Fraction(max(int(min(_SHARE * smallest, _LARGEST_STEP_DEG) * _PARTS), 1), _PARTS)
+        self._left = self.back(), self.across()
 
     def __repr__(self) -> str:
         return f"<OpeningMoves by {float(self.step_deg):g}°>"
+
+    def next(self, measured: int) -> Command | None:
+        """Return the next command; None if none is left.
+
+        Parameters
+        ----------
+        measured
+            How many drives have moved the robot since a wall stopped it first: after one, it is to drive across, after two it has begun.
+        """
+        return next((command for moves in self._left[measured:] for command in moves), None)
 
     def back(self) -> Iterator[Command]:
         """Yield the turns to try until the robot moves: back from the wall, which fails only in a corner, and then all around.

@@ -1,11 +1,14 @@
 """Which turn tells hypotheses apart best: rays from each of them, in plain doubles, for plans only."""
 
 import math
+from collections.abc import Callable
 from fractions import Fraction
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
+from ial.active.direction_choice import DirectionChoice, Weights
 from ial.contractors.kernels import kernel
 from ial.odometer.wall_table import WallTable
 
@@ -93,3 +96,30 @@ def scores(distances: FloatArray, gap_m: float, gap_part: float) -> FloatArray:
     result = np.empty(distances.shape[1])
     _mean_classes(distances, np.array([gap_m, gap_part]), result)
     return result
+
+
+Rule: TypeAlias = Callable[[FloatArray, float, float], int | None]
+"""From distances and by how much two must differ, as for `scores`, the turn that tells hypotheses apart best; None if no turn does."""
+
+
+def by_expectation(distances: FloatArray, gap_m: float, gap_part: float) -> int | None:
+    """Return the turn after which the fewest hypotheses are expected to be left; see `scores`."""
+    expected = scores(distances, gap_m, gap_part)
+    best = int(np.argmin(expected))
+    return best if expected[best] < len(distances) - 0.5 else None
+
+
+def by_direction(distances: FloatArray, gap_m: float, gap_part: float) -> int | None:
+    """Return the turn in whose direction hypotheses differ most (Goyal, Krishna, Bhuvanagiri, stage 1); see `DirectionChoice`.
+
+    A drive to the wall is the reading of the paper's virtual sensor. Of several best ones it is the first, where the paper gives up
+    stage 1: each of them is as good to a robot that reads one direction at a time.
+    """
+    seen = distances[np.isfinite(distances)]
+    farthest = float(seen.max(initial=0.0))
+    if farthest == 0.0:
+        return None
+    read = np.minimum(distances, 2.0 * farthest)  # that no wall is ahead is one more reading, apart from all others
+    choice = DirectionChoice.of((1.0 - 0.5 * gap_part) * read, (1.0 + 0.5 * gap_part) * read, 2.0 * farthest, Weights(same_m=gap_m))
+    best = int(choice.best[0])
+    return best if choice.differing[best] > 0 else None

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from functools import cache
 
 import numpy as np
 
@@ -22,7 +23,7 @@ SENSOR = SensorErrors(0.02, 0.002, 2)
 
 def config(clearance_m: float = CLEARANCE_M) -> LocalizerConfig:
     plain = LocalizerConfig()
-    return dataclasses.replace(plain, robot_radius_m=clearance_m, bounds=dataclasses.replace(plain.bounds, motion=MOTION))
+    return dataclasses.replace(plain, outliers=4, robot_radius_m=clearance_m, bounds=dataclasses.replace(plain.bounds, motion=MOTION))
 
 
 def belief(grid: OccupancyGrid) -> Belief:
@@ -43,9 +44,16 @@ def room(width_m: float = 6.0, height_m: float = 4.0) -> OccupancyGrid:
     return OccupancyGrid(cells, 0.05)
 
 
+@cache
+def _blocked(grid: OccupancyGrid) -> tuple[np.ndarray, np.ndarray]:
+    """Both corners of the cells that are not free, (y, x)."""
+    cells = np.argwhere(grid.cells != FREE)
+    return cells * grid.resolution, (cells + 1) * grid.resolution
+
+
 def distance_to_walls(grid: OccupancyGrid, x: float, y: float) -> float:
     """The distance of a point of the grid's frame to the nearest closed cell that is not free, by looking at all of them."""
-    blocked = np.argwhere(grid.cells != FREE)
-    away = np.maximum(np.maximum(blocked * grid.resolution - [y, x], [y, x] - (blocked + 1) * grid.resolution), 0.0)
+    low, high = _blocked(grid)
+    away = np.maximum(np.maximum(low - [y, x], [y, x] - high), 0.0)
     outside = min(x, y, grid.width_m - x, grid.height_m - y)
     return min(float(np.sqrt((away**2).sum(axis=1)).min()), outside)

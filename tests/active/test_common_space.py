@@ -45,5 +45,15 @@ def test_frames() -> None:
     pose = Pose(1.0, 2.0, 0.5 * math.pi)
     ((ahead, aside),) = in_robot_frame(pose, [(1.0, 3.0)])
     assert np.allclose([ahead, aside], [1.0, 0.0])
-    (moved,) = moved_along(np.array([[1.0, 2.0, 0.5 * math.pi]]), 1.0, 0.5)
-    assert np.allclose(moved, [0.5, 3.0, 0.5 * math.pi])
+    moved = moved_along(np.array([[1.0, 2.0, 0.5 * math.pi]]), [1.0, 0.0], [0.5, 0.0])
+    assert np.allclose(moved, [[[0.5, 3.0, 0.5 * math.pi]], [[1.0, 2.0, 0.5 * math.pi]]])
+
+
+def test_towards_what_cannot_be_reached_it_comes_as_near_as_it_can() -> None:
+    both = space((2.0, 1.0, 0.0), (4.5, 1.0, 0.0))
+    place = both.towards(5.3, 1.0)
+    assert place is not None
+    near = math.dist(both.point(place), (5.3, 1.0))
+    assert near > 0.5
+    assert near <= min(math.dist(both.point(each), (5.3, 1.0)) for each in both.views(1)) + 0.5
+    assert both.towards(20.0, 1.0) is None

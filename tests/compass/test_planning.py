@@ -142,6 +142,7 @@ for seed in range(3):
     assert told == [f"{each.directions} {each.sizes} {each.end[0]} {each.end[1]}" for each in made]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("order", ["greedy", "paper"])
 @pytest.mark.parametrize("scale", [Fraction(1, 10**9), Fraction(10**9)])
 def test_tiny_and_huge_environments_have_sequences_too(order: Order, scale: Fraction) -> None:

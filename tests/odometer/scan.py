@@ -6,6 +6,7 @@ from itertools import pairwise
 from ial.maps.polygons.polygon import Polygon
 
 Place = tuple[float, float, float]
+Wall = tuple[float, float, float, float]
 
 
 class Scan:
@@ -32,8 +33,8 @@ class Scan:
                     best = min(best, (far, number))
         return best
 
-    def chords(self, x: float, y: float, length: float) -> dict[tuple[int, int], float]:
-        """The headings in which a drive from a place has a length: by wall, and which of the two points of the wall."""
+    def chords(self, x: float, y: float, length: float, own: Wall) -> dict[tuple[int, int], float]:
+        """The headings in which a drive from a place on a wall of its own has a length: by wall, and which of its two points."""
         found = {}
         for number, (ax, ay, ex, ey) in enumerate(self.walls):
             square, middle = ex * ex + ey * ey, (ax - x) * ex + (ay - y) * ey
@@ -42,6 +43,8 @@ class Scan:
                 part = (-middle + sign * math.sqrt(root)) / square
                 if 0.0 <= part <= 1.0:
                     heading = math.atan2(ay + part * ey - y, ax + part * ex - x)
+                    if own[2] * math.sin(heading) - own[3] * math.cos(heading) <= 0.0:
+                        continue  # into the wall
                     far, hit = self.way(x, y, heading)
                     if hit == number and abs(far - length) < 1e-9 * self.size:
                         found[number, sign] = heading
@@ -50,16 +53,16 @@ class Scan:
     def candidates(self, first: float, second: float, turn: float, steps: int) -> list[Place]:
         """Where robots are after two drives, by changes of sign between neighbouring places, at the middle of these."""
         found: list[Place] = []
-        for ax, ay, ex, ey in self.walls:
+        for own in self.walls:
+            ax, ay, ex, ey = own
             column = []
             for step in range(steps):
                 x, y = ax + (step + 0.5) / steps * ex, ay + (step + 0.5) / steps * ey
                 row = {}
-                for key, heading in self.chords(x, y, first).items():
+                for key, heading in self.chords(x, y, first, own).items():
                     _, _, fx, fy = self.walls[key[0]]
-                    leaves = ex * math.sin(heading) - ey * math.cos(heading), fx * math.sin(heading + turn) - fy * math.cos(heading + turn)
-                    if min(leaves) <= 0.0:
-                        continue  # into a wall
+                    if fx * math.sin(heading + turn) - fy * math.cos(heading + turn) <= 0.0:
+                        continue  # into the wall
                     bx, by = x + first * math.cos(heading), y + first * math.sin(heading)
                     far, hit = self.way(bx, by, heading + turn)
                     if hit >= 0:

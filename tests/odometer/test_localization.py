@@ -5,29 +5,24 @@ import pytest
 
 from ial.errors import ConfigError, ImpossibleError
 from ial.maps.polygons.polygon import Polygon
-from ial.odometer import Command, Localization, OdometerBounds, OdometerModel, OdometerRobot, Session, localize
+from ial.odometer import Localization, OdometerBounds, OdometerModel, OdometerRobot, Session, localize
 from tests.maps.polygons.random_polygons import random_polygon, rectilinear_polygon
+from tests.odometer.followed_robot import FollowedRobot
 from tests.odometer.worlds import L_SHAPE, S_SHAPE, SERPENTINE, SQUARE, WORLDS, regular, ring, robot
 
 
 def followed(model: OdometerModel, driven: OdometerRobot, most: int = 100) -> Localization:
     """A localization in which the truth is looked for after each command."""
+    watched = FollowedRobot(driven)
+    counted = []
 
-    class Watched:
-        def execute(self, command: Command) -> float:
-            if session.states is not None and len(watched):
-                assert holds(), (driven, command)
-            watched.append(command)
-            return driven.execute(command)
+    def look(commands: int) -> None:
+        counted.append(commands)
+        assert watched.is_in(session.states["here"]), (driven, commands)
 
-    def holds() -> bool:
-        return session.states["here"].holds(driven.x, driven.y, driven.heading_rad)
-
-    watched: list[Command] = []
-    session = Session({"here": model}, Watched(), most)
+    session = Session({"here": model}, watched, most, look)
     result = session.run()
-    assert holds()
-    assert len(watched) == len(result.steps)
+    assert counted == list(range(2, len(result.steps) + 1))
     return result
 
 
@@ -48,7 +43,7 @@ def test_the_truth_is_in_the_set_at_every_step_and_one_orbit_is_left(name: str) 
 def test_the_truth_is_kept_with_errors_as_large_as_allowed() -> None:
     bounds = OdometerBounds(0.01, 0.5)
     narrow = 0
-    for seed in range(10):
+    for seed in range(6):  # a thousand of them are a bench
         polygon = random_polygon(corners=9, seed=seed) if seed % 2 else L_SHAPE
         model = OdometerModel(polygon, bounds)
         result = followed(model, robot(polygon, seed, bounds), 30)
@@ -57,7 +52,7 @@ def test_the_truth_is_kept_with_errors_as_large_as_allowed() -> None:
             assert result.narrowest is not None
             assert result.narrowest.width_m <= result.width_m
             narrow += result.narrowest.width_m < 0.1 * model.walls.size
-    assert narrow >= 5
+    assert narrow >= 3
 
 
 def test_a_pentagon_leaves_exactly_five() -> None:

@@ -23,7 +23,7 @@ class Hops:
         The longest way between two scans.
     """
 
-    hop_m: float = 0.5
+    hop_m: float = 1.0
 
     def straight(self, belief: Belief, turn_rad: float, distance_m: float) -> Drive | None:
         """Return the next part of a straight way; None if not even the shortest is safe."""

@@ -13,10 +13,9 @@ import numpy as np
 
 from ial.active.belief import Belief
 from ial.active.exploration import ENDS, ExplorationStep, explore
-from ial.active.planners.hops import Hops
 from ial.active.robot import Drive
 from ial.active.simulated_robot import SimulatedRobot
-from ial.cli.active.planning import Planning
+from ial.cli.active.planning import HOPS, Planning
 from ial.cli.active.report import line_of
 from ial.cli.active.simulated import Simulated
 from ial.cli.active.surroundings import Surroundings
@@ -24,6 +23,7 @@ from ial.datasets.odometry import Odometry
 from ial.datasets.recording import Step
 from ial.errors import ConfigError
 from ial.lidar.configuration.config import LocalizerConfig
+from ial.lidar.estimate import Estimate
 from ial.lidar.localizer import Localizer
 from ial.results.active.animation import ExplorationAnimation
 from ial.results.active.decisions import DecisionsFile
@@ -114,7 +114,7 @@ class ExplorationJob:
         """
         with ResultFolder(self.out) as folder, ExitStack() as stack:
             grid = self.surroundings.grid
-            longest_s = SimulatedRobot.seconds(Drive(math.pi, Hops().hop_m))
+            longest_s = SimulatedRobot.seconds(Drive(math.pi, HOPS.hop_m))
             belief = Belief(Localizer(grid, config=self.config), self.simulated.radius_m, longest_s)
             robot = self.simulated.robot(self.surroundings.world, belief, self.start, self.seed)
             source = _Driven(f"{self.planning.name} in {self.surroundings.name}")
@@ -200,7 +200,7 @@ class ExplorationJob:
         }
 
 
-def _legs(belief: Belief, robot: SimulatedRobot, taken: Iterator[ExplorationStep]) -> Iterator[Leg]:
+def _legs(belief: Belief, robot: SimulatedRobot, taken: Iterator[ExplorationStep[Estimate]]) -> Iterator[Leg]:
     """Yield each decision with what came of it."""
     step, before = None, None
     index = -1

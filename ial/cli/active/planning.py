@@ -6,11 +6,18 @@ from ial.active.belief import Belief
 from ial.active.decision import Planner
 from ial.active.direction_choice import Weights
 from ial.active.planners.entropy import EntropyPlanner, TargetPlanner
+from ial.active.planners.hops import Hops
 from ial.active.planners.nearest_frontier import NearestFrontierPlanner
 from ial.active.planners.random_walk import RandomPlanner
+from ial.active.planners.route import Route
 from ial.active.planners.two_stage import Options, TwoStagePlanner
 from ial.cli.active.options import PlannerName
 from ial.errors import ConfigError
+
+HOPS = Hops()
+"""How every planner gets on: no drive is longer, so none takes longer than one of that length."""
+
+_ROUTE = Route(hops=HOPS)
 
 
 @dataclass(frozen=True)
@@ -53,12 +60,12 @@ class Planning:
     def planner(self, belief: Belief) -> Planner[Belief]:
         """Return the planner of one run."""
         if self.name == "direction":
-            return TwoStagePlanner(belief, Options(weights=self._weights(), guaranteed=self.guaranteed))
+            return TwoStagePlanner(belief, Options(weights=self._weights(), guaranteed=self.guaranteed, route=_ROUTE))
         if self.name == "entropy":
-            return EntropyPlanner(belief, seed=self.seed)
+            return EntropyPlanner(belief, HOPS.hop_m / 2.0, seed=self.seed)
         if self.name == "target":
-            return TargetPlanner(belief, seed=self.seed)
-        return RandomPlanner(self.seed) if self.name == "random" else NearestFrontierPlanner(belief)
+            return TargetPlanner(belief, seed=self.seed, route=_ROUTE)
+        return RandomPlanner(self.seed, HOPS) if self.name == "random" else NearestFrontierPlanner(belief, _ROUTE)
 
     def _weights(self) -> Weights:
         usual = Weights()

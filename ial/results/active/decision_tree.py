@@ -73,7 +73,8 @@ class DecisionTree:
         decision = leg.taken.decision
         if decision is None or not self.nodes:
             return Branching(leg.number, "first look", None, 0)
-        parent = len(self.nodes) - 1 if decision.since is None else self._before(decision.since)
+        since = decision.since if decision.stage == "backtrack" else None
+        parent = len(self.nodes) - 1 if since is None else self._before(since)
         on = parent == len(self.nodes) - 1
         lane = self.nodes[parent].lane if on else 1 + max(each.lane for each in self.nodes)
         return Branching(leg.number, decision.stage, parent, lane)

@@ -33,7 +33,7 @@ class Leg:
     number: int
     before: int | None
     step: Step
-    taken: ExplorationStep
+    taken: ExplorationStep[Estimate]
     groups: Groups
     truth: Pose
 
