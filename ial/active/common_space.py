@@ -61,6 +61,7 @@ class CommonSpace:
         self._dear = 1.0 + _DEAREST * np.clip((wanted - spare) / wanted, 0.0, 1.0)
         self._free = free
         self._own = field.at(self._x, self._y) >= distances.radius_m
+        self._field, self._radius_m = field, distances.radius_m
         self._graph = self._linked(free)
         begin = int(self.places(self.here.x, self.here.y))
         (self._ways,), (self._before,) = dijkstra(self._graph, directed=False, indices=[begin], return_predecessors=True)
@@ -111,8 +112,19 @@ class CommonSpace:
 
     def views(self, every: int) -> list[int]:
         """Return the places that can be reached, one in so many rows and columns."""
+        return [int(each) for each in np.flatnonzero(np.isfinite(self._ways) & self._thinned(every))]
+
+    def blocked(self, groups: Groups, every: int) -> list[tuple[float, float]]:
+        """Return places, one in so many rows and columns, that would be free from one pose of each group, and cannot be reached."""
+        places = np.flatnonzero(np.isinf(self._ways) & self._own & self._thinned(every))
+        ahead, aside = _seen_from(self.here, self._x[places], self._y[places])
+        moved = moved_along(groups.poses, ahead, aside)
+        free = (self._field.at(moved[..., 0], moved[..., 1]) >= self._radius_m).all(axis=1)
+        return [self.point(each) for each in places[free].tolist()]
+
+    def _thinned(self, every: int) -> npt.NDArray[np.bool_]:
         row, column = np.divmod(np.arange(len(self._x)), self._columns)
-        return [int(each) for each in np.flatnonzero(np.isfinite(self._ways) & (row % every == 0) & (column % every == 0))]
+        return np.asarray((row % every == 0) & (column % every == 0))
 
     def cost_m(self, place: int) -> float:
         """Return what the best way to a place costs: its length, more where it is narrow (m); infinite if there is none."""

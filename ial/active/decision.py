@@ -23,12 +23,21 @@ class Decision:
         In words.
     target
         Where it leads in the end, x and y in metres in the frame of the robot at its start; None if it has no target.
+    goes_on
+        Whether it goes on with what the decision before it has begun.
+    since
+        If the target is a frontier: the number of the decision that was the first to know it, counted from 1.
+    open
+        Those numbers of all frontiers that are left besides the target, as they were when a planner last looked for frontiers.
     """
 
     drive: Drive | None
     stage: str
     reason: str
     target: tuple[float, float] | None = None
+    goes_on: bool = False
+    since: int | None = None
+    open: tuple[int, ...] = ()
 
 
 class Planner(Protocol[BeliefT]):

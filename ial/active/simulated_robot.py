@@ -5,16 +5,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ial.active.contact import Contact
 from ial.active.robot import Drive, Driven
 from ial.datasets.motion import Motion, MotionBounds
 from ial.datasets.odometry import Odometry
 from ial.datasets.scan import LaserScan
 from ial.datasets.simulator import Lidar, SensorErrors, simulated_odometry, simulated_scan
 from ial.errors import ConfigError
-from ial.maps.grids.occupancy_grid import FREE, OccupancyGrid
+from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.pose import Pose, wrap
 
-_SPEED_M_S, _TURN_RAD_S, _START_S = 0.5, 1.0, 1.0
+_SPEED_M_S, _TURN_RAD_S, _PAUSE_S, _START_S = 0.5, 1.0, 0.1, 1.0
 _SLACK = 0.9  # of the bounds is used by errors of the drive, so that the recorded odometry can enclose it
 
 
@@ -61,8 +62,7 @@ class SimulatedRobot:
     def __init__(self, grid: OccupancyGrid, start: Pose, lidar: Lidar, errors: Errors, radius_m: float = 0.0, seed: int = 0) -> None:
         self.grid, self.lidar, self.errors, self.radius_m = grid, lidar, errors, radius_m
         self._random = np.random.default_rng(seed)
-        self._reach = math.ceil(radius_m / grid.resolution) + 1  # cells beside its own in which there can be what it touches
-        self._blocked = ~np.pad(grid.mask(FREE), self._reach)
+        self._contact = Contact(grid, radius_m)
         self.pose = start
         self.path = [start]
         self.collisions = 0
@@ -79,15 +79,12 @@ class SimulatedRobot:
 
     def touches(self, pose: Pose) -> bool:
         """Return whether a cell that is not free would be nearer than the radius; outside of the map nothing is free."""
-        at = self.grid.pose_to_grid(pose)
-        place = np.array([at.y, at.x]) / self.grid.resolution
-        row, column = (int(each) for each in np.floor(place))
-        if not (0 <= row < self.grid.rows and 0 <= column < self.grid.columns):
-            return True
-        around = self._blocked[row : row + 2 * self._reach + 1, column : column + 2 * self._reach + 1]
-        cells = np.argwhere(around) + np.array([row - self._reach, column - self._reach])
-        away = np.maximum(np.maximum(cells - place, place - (cells + 1)), 0.0)
-        return bool(((away**2).sum(axis=1) < (self.radius_m / self.grid.resolution) ** 2).any() or around[self._reach, self._reach])
+        return self._contact.touches(pose)
+
+    @staticmethod
+    def seconds(command: Drive) -> float:
+        """Return how long it takes to obey a command, in seconds."""
+        return abs(command.turn_rad) / _TURN_RAD_S + command.distance_m / _SPEED_M_S + _PAUSE_S
 
     def look(self) -> LaserScan:
         """Return a scan from where it is."""
@@ -95,7 +92,7 @@ class SimulatedRobot:
 
     def drive(self, command: Drive) -> Driven[Motion, LaserScan]:
         """Obey a command, and look."""
-        seconds = abs(command.turn_rad) / _TURN_RAD_S + command.distance_m / _SPEED_M_S + 0.1
+        seconds = self.seconds(command)
         reached, collided = self._reached(self._missed(command, seconds))
         stamps = [round(1e9 * self._now_s), round(1e9 * (self._now_s + seconds))]
         path = simulated_odometry(

@@ -6,6 +6,7 @@ from typing import Annotated, Any
 import typer
 from typer.core import TyperGroup
 
+from ial.cli.active import explore
 from ial.cli.bounce import advise, build, calibrate, export, run, search_angle, show
 from ial.cli.bounce import simulate as bounce_simulate
 from ial.cli.compass import plan, verify
@@ -42,6 +43,7 @@ compass = typer.Typer(no_args_is_help=True, help="Localize a robot that has a co
 odometer = typer.Typer(no_args_is_help=True, help="Localize a robot that measures its turns and how far it drives.")
 app.command("localize")(localize.localize)
 app.command("where")(where.where)
+app.command("explore")(explore.explore)
 app.command("bounds")(bounds.bounds)
 app.command("info")(info.info)
 app.command("convert")(convert.convert)

@@ -16,6 +16,8 @@ ON_WALL = "#1b9e77"
 OFF_WALL = "#d1495b"
 FREE, OCCUPIED, UNKNOWN = "#ffffff", "#22262b", "#e6e9ed"
 EDGE = "#9aa3ad"
+HYPOTHESES = ("#1b6ca8", "#e8a33d", "#1b9e77", "#6f4e9c", "#7a5230", "#4aa8c9", "#8f9e2e", "#c77cba")
+"""Of places that are told apart; more of them begin anew."""
 
 
 def rgb(colour: str) -> tuple[float, float, float]:

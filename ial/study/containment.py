@@ -7,14 +7,13 @@ import numpy as np
 
 from ial.contractors.intervals.angle import contains_angle
 from ial.datasets.recording import Step
-from ial.datasets.trajectory import Trajectory
 from ial.lidar.estimate import Estimate
 from ial.lidar.localizer import Localizer
 from ial.pose import Pose
 from ial.study.domain import Domain
 from ial.study.good_beams import bad_beams
 from ial.study.obstacles import Obstacles
-from ial.study.reference import TruthFrame, base_pose
+from ial.study.reference import Truth, TruthFrame, base_pose
 from ial.study.used_beams import UsedBeams
 
 
@@ -37,7 +36,7 @@ class Containment:
         Whether each scan was localized by itself.
     """
 
-    def __init__(self, localizer: Localizer, truth: Trajectory, frame: TruthFrame = "base", *, static: bool = False) -> None:
+    def __init__(self, localizer: Localizer, truth: Truth, frame: TruthFrame = "base", *, static: bool = False) -> None:
         self._localizer = localizer
         self._truth = truth
         self._frame = frame

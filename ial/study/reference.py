@@ -1,7 +1,7 @@
 """Reference poses for the scans of a recording: those of a trajectory, or those that the localizer finds itself."""
 
 from collections.abc import Iterator
-from typing import Literal
+from typing import Literal, Protocol
 
 from ial.datasets.recording import Recording, Step, steps
 from ial.datasets.trajectory import Trajectory
@@ -13,6 +13,14 @@ from ial.pose import Pose
 
 TruthFrame = Literal["base", "laser"]
 """Whose poses a reference trajectory holds."""
+
+
+class Truth(Protocol):
+    """Poses over time: a trajectory, or one that grows while a robot drives."""
+
+    def at(self, stamp_ns: int) -> Pose | None:
+        """Return the pose at a time in nanoseconds, None where there is none."""
+        ...
 
 
 def reference_poses(
@@ -29,7 +37,7 @@ def reference_poses(
         yield step, base_pose(truth, frame, step)
 
 
-def base_pose(truth: Trajectory, frame: TruthFrame, step: Step) -> Pose | None:
+def base_pose(truth: Truth, frame: TruthFrame, step: Step) -> Pose | None:
     """Return ``T_map_base`` of a reference at a scan, None where it has none."""
     pose = truth.at(step.stamp_ns)
     return pose if pose is None or frame == "base" else pose @ step.scan.mounting.pose.inverse()

@@ -134,7 +134,7 @@ class TargetPlanner:
         if self._target is not None:
             drive = self._route.towards(belief, space, self._target)
             if drive is not None:
-                return Decision(drive, "target", "further to the same place", self._target)
+                return Decision(drive, "target", "further to the same place", self._target, goes_on=True)
             self._done.append(self._target)
             self._target = None
         poses, weights = markov.likely(MOST_POSES)

@@ -39,7 +39,7 @@ class NearestFrontierPlanner:
         if self._target is not None:
             drive = self._route.towards(belief, space, self._target)
             if drive is not None:
-                return Decision(drive, "frontier", "further to the same frontier", self._target)
+                return Decision(drive, "frontier", "further to the same frontier", self._target, goes_on=True)
             self._done.append(self._target)
             self._target = None
         start = space.here @ belief.moved.inverse()

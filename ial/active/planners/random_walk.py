@@ -33,7 +33,7 @@ class RandomPlanner:
         """Return the next decision."""
         ahead = self._hops.straight(belief, 0.0, self._hops.hop_m)
         if ahead is not None and ahead.distance_m == self._hops.hop_m:
-            return Decision(ahead, "random", "straight on")
+            return Decision(ahead, "random", "straight on", goes_on=belief.motion is not None)
         for turn in self._random.permutation(2.0 * math.pi * np.arange(_DIRECTIONS) / _DIRECTIONS - math.pi).tolist():
             drive = self._hops.straight(belief, turn, self._hops.hop_m)
             if drive is not None:

@@ -17,7 +17,11 @@ _OTHER_VARIABLES = ("IAL_THREADS", "IAL_CACHE_DIR", "IAL_DATA", "IAL_ITF1788")
 
 
 def resolve(
-    file: Path | None = None, settings: Sequence[str] = (), environment: Mapping[str, str] = os.environ, **named: Any
+    file: Path | None = None,
+    settings: Sequence[str] = (),
+    environment: Mapping[str, str] = os.environ,
+    beneath: Mapping[str, Any] | None = None,
+    **named: Any,
 ) -> LocalizerConfig:
     """Return the configuration; the command line wins over the environment, that over the file, and that over the defaults.
 
@@ -29,6 +33,8 @@ def resolve(
         ``KEY=VALUE`` texts from the command line, with dots in the key: ``motion.translation.per_scan=0.2``.
     environment
         The variables; a key is called ``IAL_`` and its capitals there, with ``_`` for dots: ``IAL_MOTION_TRANSLATION_PER_SCAN``.
+    beneath
+        What a command takes in place of some defaults, for what nobody has said.
     named
         Values of options of their own; None where one was not given.
 
@@ -37,8 +43,8 @@ def resolve(
     ConfigError
         If a key is unknown or a value cannot be used. The text names the source, the key, and what is allowed.
     """
-    said: dict[str, Any] = {}
-    config = LocalizerConfig()
+    said: dict[str, Any] = dict(beneath or {})
+    config = config_of(said)
     for source, layer in _layers(file, settings, environment, named):
         said = _merged(said, layer)
         try:

@@ -10,26 +10,16 @@ from ial.cli.shell.inputs import Inputs
 from ial.cli.shell.terminal import progress
 from ial.contractors.boxes import Boxes
 from ial.contractors.threads import get_threads
-from ial.datasets.recording import Recording
 from ial.datasets.trajectory import read_tum
 from ial.errors import ConfigError
 from ial.lidar.configuration.config import LocalizerConfig
-from ial.lidar.configuration.config_record import config_yaml
 from ial.lidar.localizer import Localizer
 from ial.lidar.run import localize
-from ial.maps.grids.occupancy_grid import OccupancyGrid
-from ial.results.lidar.enclosures import EnclosuresFile
-from ial.results.lidar.events import EventsFile
-from ial.results.lidar.picture import Picture
-from ial.results.lidar.recording_mcap import RecordingFile
 from ial.results.lidar.result_folder import ResultFolder
+from ial.results.lidar.run_results import RunResults
 from ial.results.lidar.summary import Summary
-from ial.results.lidar.trajectory import TrajectoryFile
 from ial.study.containment import Containment
 from ial.study.reference import TruthFrame
-
-FILES = ("summary.json", "config.yaml", "enclosures.jsonl", "events.jsonl", "picture.png", "result.mcap", "trajectory.tum")
-"""What a run writes, its record first."""
 
 
 @dataclass(frozen=True)
@@ -80,33 +70,15 @@ class Job:
             localizer = Localizer(grid, config=self.config, initial=self._region())
             containment = None if truth is None else Containment(localizer, truth, self.truth_frame, static=self.static)
             summary = Summary(recording, grid, self.config, self._options())
-            self._attach_sinks(folder, recording, grid, containment)
+            reference = None if containment is None else containment.reference
+            results = RunResults(folder, summary, recording, grid, self.config, reference)
             scans = localize(recording, localizer, start=self.start, stop=self.stop, every=self.every, static=self.static)
             for step, estimate in progress(scans, self._total, Path(recording.name).name):
-                folder.add(step, estimate)
-                summary.add(step, estimate)
+                results.add(step, estimate)
                 if containment is not None:
                     containment.add(step, estimate)
-            folder.close()
-            folder.write("config.yaml", config_yaml(self.config))
-            record = folder.conclude("summary.json", summary.as_dict(_measures(containment)))
+            record = results.conclude(_measures(containment))
         return summary, record
-
-    def _attach_sinks(self, folder: ResultFolder, recording: Recording, grid: OccupancyGrid, containment: Containment | None) -> None:
-        bounds = self.config.bounds
-        folder.attach(
-            TrajectoryFile(folder.place("trajectory.tum")),
-            EnclosuresFile(folder.place("enclosures.jsonl")),
-            EventsFile(folder.place("events.jsonl")),
-            RecordingFile(folder.place("result.mcap"), grid),
-            Picture(
-                folder.place("picture.png"),
-                grid,
-                recording.name,
-                bounds.range_error_m + bounds.map_error_m,
-                None if containment is None else containment.reference,
-            ),
-        )
 
     @property
     def _total(self) -> int | None:

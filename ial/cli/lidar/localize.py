@@ -73,9 +73,10 @@ def localize(
     if (initial is None) != (initial_radius is None):
         raise ConfigError("--initial X Y θ and --initial-radius M RAD belong together; give both")
 
-    from ial.cli.lidar.job import FILES, Job
+    from ial.cli.lidar.job import Job
     from ial.cli.shell.inputs import Inputs
     from ial.contractors.threads import set_threads
+    from ial.results.lidar.run_results import FILES
 
     set_threads(threads)
     inputs = Inputs(recording, map_path, scan_topic, odom_topic, laser_pose, semantics, map_topic)

@@ -40,7 +40,7 @@ def report(summary: "Summary", record: Mapping[str, Any]) -> Iterator[str]:
         yield f"limited: {_scans(count)} by the limit on {limit}, with coarser answers"
     for frame in scans["lidars_without_scans"]:
         yield f"the configuration has errors of a lidar {frame}, from which no scan came; its frame is called otherwise"
-    yield from _measures(record["measures"])
+    yield from measured(record["measures"])
     yield f"{1e3 * times['median_s']:.1f} ms per scan in the median, {1e3 * times['p99_s']:.1f} ms in 99 %; {times['wall_s']:.2f} s in all"
 
 
@@ -55,7 +55,8 @@ def _outcome(summary: "Summary") -> str:
     return f"localized from scan {summary.first_localized} on, but not at the end"
 
 
-def _measures(measures: Mapping[str, Any] | None) -> Iterator[str]:
+def measured(measures: Mapping[str, Any] | None) -> Iterator[str]:
+    """Yield the lines about a comparison with a reference, none if there is none."""
     if measures is None:
         return
     reference, holds = measures["scans_with_reference"], measures["scans_where_assumptions_hold"]

@@ -24,6 +24,9 @@ class EventsFile(JsonLines):
     better_place    the scan fits better somewhere else than where the robot is tracked (`check_every`): ``inside`` and
                     ``elsewhere`` are the numbers of bad beams, ``x``, ``y`` and ``theta`` the bounds of that place
     limit           a limit stopped the search early, ``by`` "boxes" or "time": the answer is coarser, and holds all the same
+    collision       `ial explore` alone: the robot touched something on its way to the scan, ``decision`` says with which number
+    ended           `ial explore` alone, at the last scan: ``by`` "localized", "symmetric", "exhausted" (the planner has nothing left)
+                    or "drives" (there were as many as allowed), after so many ``drives``
     ==============  ========================================================================================================
 
     Parameters

@@ -75,8 +75,13 @@ class ResultFolder(AbstractContextManager["ResultFolder"]):
     def attach(self, *sinks: Sink) -> None:
         """Feed these sinks from now on, and close them at the end."""
         for sink in sinks:
-            self._stack.enter_context(sink)
+            self.keep(sink)
             self._sinks.append(sink)
+
+    def keep(self, *files: AbstractContextManager[Any]) -> None:
+        """Close these files at the end; they are fed otherwise, within `writing`."""
+        for file in files:
+            self._stack.enter_context(file)
 
     def add(self, step: Step, estimate: Estimate) -> None:
         """Hand one scan to every sink.
@@ -86,7 +91,7 @@ class ResultFolder(AbstractContextManager["ResultFolder"]):
         OutputError
             If one cannot write.
         """
-        with self._trouble():
+        with self.writing():
             for sink in self._sinks:
                 sink.add(step, estimate)
 
@@ -98,7 +103,7 @@ class ResultFolder(AbstractContextManager["ResultFolder"]):
         OutputError
             If it cannot be written.
         """
-        with self._trouble():
+        with self.writing():
             self.place(name).write_text(text, encoding="utf-8")
 
     def conclude(self, name: str, record: Mapping[str, Any]) -> dict[str, Any]:
@@ -118,7 +123,7 @@ class ResultFolder(AbstractContextManager["ResultFolder"]):
         OutputError
             If it cannot be written.
         """
-        with self._trouble():
+        with self.writing():
             whole = {**record, "files": {file.name: _sha256(file) for file in sorted(self._hidden.iterdir())}}
         self.write(name, json.dumps(whole, indent=2, allow_nan=False, ensure_ascii=False) + "\n")
         self._record = name
@@ -132,13 +137,13 @@ class ResultFolder(AbstractContextManager["ResultFolder"]):
         OutputError
             If one cannot write.
         """
-        with self._trouble():
+        with self.writing():
             self._stack.close()
         self._sinks.clear()
 
     def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
         try:
-            with self._trouble():
+            with self.writing():
                 self._stack.__exit__(kind, error, trace)
                 if kind is None:
                     self._name_files()
@@ -166,7 +171,14 @@ class ResultFolder(AbstractContextManager["ResultFolder"]):
                 folder.rmdir()
 
     @contextmanager
-    def _trouble(self) -> Iterator[None]:
+    def writing(self) -> Iterator[None]:
+        """Write into the folder within the block, by hand.
+
+        Raises
+        ------
+        OutputError
+            In place of an `OSError` of the block.
+        """
         try:
             yield
         except OSError as error:

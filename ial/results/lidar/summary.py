@@ -8,11 +8,11 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
-from ial.datasets.recording import Recording, Step
+from ial.datasets.recording import Step
 from ial.datasets.scan import Mounting
 from ial.datasets.stamps import format_stamp
 from ial.lidar.configuration.config import LocalizerConfig
@@ -22,6 +22,14 @@ from ial.maps.grids.occupancy_grid import OccupancyGrid
 from ial.results.lidar.enclosures import Enclosure
 
 _LIBRARIES = ("numpy", "numba", "rosbags", "opencv-python-headless", "matplotlib")
+
+
+class Source(Protocol):
+    """Where the scans of a run come from: a recording, or a robot that is driven. As in `Recording`."""
+
+    name: str
+    skipped: Counter[str]
+    repaired: Counter[str]
 
 
 class Summary:
@@ -46,7 +54,7 @@ class Summary:
         The index of the first localized scan.
     """
 
-    def __init__(self, recording: Recording, grid: OccupancyGrid, config: LocalizerConfig, options: Mapping[str, Any]) -> None:
+    def __init__(self, recording: Source, grid: OccupancyGrid, config: LocalizerConfig, options: Mapping[str, Any]) -> None:
         self._recording = recording
         self._grid = grid
         self._config = config

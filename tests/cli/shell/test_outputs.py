@@ -10,11 +10,12 @@ from typing import Any
 import pytest
 import typer
 
+from ial.cli.active.job import FILES as EXPLORE_FILES
 from ial.cli.lidar import stream
 from ial.cli.lidar.bounds import _FILES as BOUNDS_FILES
-from ial.cli.lidar.job import FILES
 from ial.cli.main import app
 from ial.datasets.sample import sample_map_path, sample_recording_path
+from ial.results.lidar.run_results import FILES
 
 Cli = Callable[..., Any]
 Refused = Callable[..., str]
@@ -38,6 +39,8 @@ WRITERS: dict[str, tuple[list[object], list[str]]] = {  # a command, and what it
     "compass plan": (["compass", "plan", "hall.wkt", "--out", "new.json"], ["new.json"]),
     "compass show": (["compass", "show", "hall.json", "--out", "new.png"], ["new.png"]),
     "odometer show": (["odometer", "show", "hall.wkt", "--start", "1,1,30", "--out", "new.png"], ["new.png"]),
+    "explore": (["explore", "--map", "room.yaml", "--drives", 0, "--out", "run"], [f"run/{name}" for name in EXPLORE_FILES]),
+    "explore --animate": (["explore", "--map", "room.yaml", "--drives", 0, "--out", "run", "--animate", "new.gif"], ["new.gif"]),
     "localize": (["localize", "--to", 1, "--out", "run"], [f"run/{name}" for name in FILES]),
     "bounds": (["bounds", "--to", 3, "--out", "run"], [f"run/{name}" for name in BOUNDS_FILES]),
 }

@@ -1,0 +1,1 @@
+"""`ial explore`: a robot that drives in order to be localized."""
