@@ -8,7 +8,7 @@ import numpy as np
 from ial.active.belief import Belief
 from ial.active.robot import Drive
 
-_LOOK_AHEAD, _TRIES = 40, 6
+_LOOK_AHEAD, _TRIES = 16, 6
 
 
 @dataclass(frozen=True)
