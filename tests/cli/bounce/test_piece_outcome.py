@@ -47,9 +47,9 @@ def test_a_robot_may_be_localized_by_a_step_without_a_bump(ial: Cli, hall: Path)
     made = read_filter(Path("f.npz"))
     assert isinstance(made, PieceFilter)
     by_steps = 0
-    for seed in range(8):
+    for seed in range(12):
         robot = RealRobot(load_environment(hall), Fraction(100), Fraction(1, 4), bounds=made.bounds, seed=seed)
-        stream = [pose.observation for pose in islice(robot.run(), 80)]
+        stream = [pose.observation for pose in islice(robot.run(), 120)]
         first = outcome(made, stream, False)["localized_at"]
         told = next((at for at in range(1, len(stream) + 1) if outcome(made, stream[:at], False)["localized"]), None)
         assert first == told
