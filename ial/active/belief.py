@@ -1,11 +1,13 @@
 """`Belief`: where a robot can be, as planners see it: the set of a localizer, its groups, and where no pose of it would collide."""
 
+import dataclasses
 import math
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
+from ial.active.bumps import Bumps
 from ial.active.clearance_field import ClearanceField
 from ial.active.explored_area import View
 from ial.active.safe_way import Distances, safe_ways
@@ -56,8 +58,8 @@ class Groups:
 class Belief:
     """What a lidar robot knows.
 
-    It assumes that the robot starts with its clearance and is never stopped by something: where it has collided, it may stand nearer than
-    that, and the set need not hold it any more.
+    It assumes that the robot starts with its clearance, and has it at each scan: `safe_ways` sees to that. Where something has stopped it
+    before it came so far, it keeps its radius only, which is assumed instead until its next drive has ended.
 
     Parameters
     ----------
@@ -86,12 +88,19 @@ class Belief:
         What the last scan can have seen; None before the first.
     motion, scan
         The last ones; None before them.
+    collided
+        Whether something has stopped the last drive.
+    bumps
+        What has stopped it so far.
     """
 
     def __init__(self, localizer: Localizer, radius_m: float, longest_s: float) -> None:
         if not 0.0 < longest_s < math.inf:
             raise ConfigError(f"a drive takes {longest_s:g} s at most; give how long one may take, in seconds")
-        self.localizer, self.longest_s = localizer, longest_s
+        self.longest_s = longest_s
+        self._keeping = self.localizer = localizer
+        self._stopped: Localizer | None = None
+        self.bumps = Bumps(radius_m)
         self.distances = Distances(radius_m, localizer.config.robot_radius_m)
         self.field = ClearanceField.of(localizer.grid, self.distances.clearance_m)
         self.estimate: Estimate | None = None
@@ -99,6 +108,7 @@ class Belief:
         self.view: View | None = None
         self.motion: Motion | None = None
         self.scan: LaserScan | None = None
+        self.collided = False
 
     def __repr__(self) -> str:
         return f"<Belief: {self.status}>"
@@ -143,13 +153,14 @@ class Belief:
         scan
             What the robot sees after it.
         collided
-            Whether it touched something on its way. Nothing follows from that yet.
+            Whether it touched something on its way, and stopped.
 
         Raises
         ------
         ConfigError
             If the first scan has no beam that tells anything.
         """
+        self._assume(collided)
         self.estimate = self.localizer.update(motion, scan)
         if motion is None and self.estimate.uninformative:
             raise ConfigError("the first scan has no usable beam, so nothing can be learned by driving; check the lidar and its limits")
@@ -158,12 +169,27 @@ class Belief:
             middle = 0.5 * (motion.lower + motion.upper)
             self.moved = self.moved @ Pose(*middle.tolist())
         self.view = View.of(scan, self.moved)
+        if collided:
+            self.bumps.add(self.moved)
         return self.estimate
 
+    def _assume(self, collided: bool) -> None:
+        """Choose the localizer of what the robot keeps where it is now: its clearance, or its radius."""
+        if collided and self._stopped is None:
+            config = dataclasses.replace(self._keeping.config, robot_radius_m=self.distances.radius_m)
+            self._stopped = Localizer(self.grid, config=config, initial=self._keeping.initial)
+        needed = self._stopped if collided and self._stopped is not None else self._keeping
+        if needed is not self.localizer:
+            needed.resume(self.localizer.poses, same_start=True)
+            self.localizer = needed
+        self.collided = collided
+        self.distances = dataclasses.replace(self.distances, now_m=self.distances.radius_m if collided else None)
+
     def safe_ways(self, turns_rad: npt.ArrayLike, most_m: float) -> FloatArray:
-        """Return how far it can drive after some turns (m), wherever it is; −1 where no way is safe."""
-        bounds = self.localizer.config.bounds.motion
-        return safe_ways(self.poses, turns_rad, most_m, self.field, self.distances, bounds, self.longest_s)
+        """Return how far it can drive after some turns (m), wherever it is, but not into a bump again; −1 where no way is safe."""
+        turns, bounds = np.asarray(turns_rad, dtype=np.float64), self.localizer.config.bounds.motion
+        ways = safe_ways(self.poses, turns, most_m, self.field, self.distances, bounds, self.longest_s)
+        return self.bumps.shortened(self.moved, turns, ways)
 
     def groups(self, width_m: float = 1.0, most: int = 64) -> Groups:
         """Return the parts of the set that a planner tells apart.

@@ -35,6 +35,8 @@ class Distances:
         Its radius: always.
     clearance_m
         What it keeps at each scan, its centre to the nearest thing; larger than the radius by a few errors of position.
+    now_m
+        What it keeps where it is: its clearance, if it is None. A robot that was stopped by something keeps its radius.
 
     Raises
     ------
@@ -44,6 +46,7 @@ class Distances:
 
     radius_m: float
     clearance_m: float
+    now_m: float | None = None
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.radius_m < math.inf:
@@ -55,7 +58,7 @@ class Distances:
 @kernel
 def _march(start, stop, lower, upper, turns, field, place, wanted, errors, step, count, safe):  # type: ignore[no-untyped-def]
     """Clear `safe[chunk, k, n]` where n steps in direction k are not safe from some box of a chunk."""
-    radius, clearance, rounded = wanted
+    radius, clearance, now, rounded = wanted
     turned, grown = errors
     rows, columns = field.shape
     for chunk in range(start, stop):
@@ -64,7 +67,7 @@ def _march(start, stop, lower, upper, turns, field, place, wanted, errors, step,
             half = np.hypot(0.5 * (upper[i, 0] - lower[i, 0]), 0.5 * (upper[i, 1] - lower[i, 1])) + rounded
             heading, aside = 0.5 * (lower[i, 2] + upper[i, 2]), 0.5 * (upper[i, 2] - lower[i, 2])
             row, column = int(np.floor(y / place)), int(np.floor(x / place))
-            if 0 <= row < rows and 0 <= column < columns and field[row, column] + 1.5 * place + half < clearance:
+            if 0 <= row < rows and 0 <= column < columns and field[row, column] + 1.5 * place + half < now:
                 continue  # it cannot be there
             for k in range(len(turns)):
                 sine, cosine = sincos(heading + turns[k])
@@ -98,7 +101,7 @@ def safe_ways(
     Parameters
     ----------
     poses
-        The set, in the grid's frame. Poses without the clearance are impossible, and left out.
+        The set, in the grid's frame. Poses that do not keep what the robot keeps where it is are impossible, and left out.
     turns_rad
         By how much it turns first, float64 of shape (n,).
     most_m
@@ -127,7 +130,8 @@ def safe_ways(
     safe = np.ones((chunks, len(turns), count), dtype=np.bool_)
     lower, upper = np.ascontiguousarray(small.lower), np.ascontiguousarray(small.upper)
     # What is rounded on the way are sums of terms as large as the map.
-    wanted = distances.radius_m, distances.clearance_m, ROUNDINGS * (field.size_m + most_m)
+    now = distances.clearance_m if distances.now_m is None else distances.now_m
+    wanted = distances.radius_m, distances.clearance_m, now, ROUNDINGS * (field.size_m + most_m)
     threads.run(_march, chunks, lower, upper, turns, field.distance_m, field.place_m, wanted, (turned, grown), step, count, safe, minimum=1)
     whole = np.logical_and.reduce(safe, axis=0)
     last = count - 1 - np.argmax(whole[:, ::-1], axis=1)

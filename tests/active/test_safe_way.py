@@ -72,6 +72,15 @@ def test_a_pose_without_clearance_is_impossible_and_in_nobodys_way() -> None:
     )
 
 
+def test_where_something_has_stopped_it_a_pose_that_is_nearer_to_a_wall_counts() -> None:
+    near, stopped = Boxes.around([(0.35, 2.0, 0.0)], [0.01] * 3), Distances(RADIUS_M, CLEARANCE_M, RADIUS_M)
+    ahead, aside = safe_ways(near, [0.0, 0.5 * math.pi], 0.5, FIELD, KEPT, MOTION, LONGEST_S).tolist()
+    assert (ahead, aside) == (0.5, 0.5), "nothing is there"
+    ahead, aside = safe_ways(near, [0.0, 0.5 * math.pi], 0.5, FIELD, stopped, MOTION, LONGEST_S).tolist()
+    assert ahead > 0.3
+    assert aside == -1.0, "along the wall it has not its clearance"
+
+
 @pytest.mark.parametrize(("radius", "clearance"), [(-0.1, 0.2), (0.3, 0.2), (math.nan, 0.2), (0.1, math.inf)])
 def test_distances_that_cannot_be_meant(radius: float, clearance: float) -> None:
     with pytest.raises(ConfigError, match=r"radius of the robot is|clearance is"):

@@ -88,7 +88,10 @@ class EntropyPlanner:
 
     def choose(self, belief: Belief) -> Decision:
         """Return the next decision."""
-        markov = self._histogram.follow(belief)
+        return self.by_entropy(belief, self._histogram.follow(belief))
+
+    def by_entropy(self, belief: Belief, markov: MarkovLocalization) -> Decision:
+        """Return the decision for a histogram that has followed the belief."""
         poses, weights = markov.likely(MOST_POSES)
         turns = [math.remainder(2.0 * math.pi * number / _NEIGHBOURS, 2.0 * math.pi) for number in range(_NEIGHBOURS)]
         ways = belief.safe_ways(turns, self._step_m)

@@ -8,8 +8,7 @@ import numpy as np
 from ial.active.belief import Belief
 from ial.active.robot import Drive
 
-_SHORTEST_M = 0.1
-_LOOK_AHEAD, _TRIES = 40, 6
+_LOOK_AHEAD, _TRIES = 16, 6
 
 
 @dataclass(frozen=True)
@@ -20,15 +19,18 @@ class Hops:
     ----------
     hop_m
         The longest way between two scans.
+    shortest_m
+        Shorter ones are not driven, except to a goal that is so near.
     """
 
     hop_m: float = 1.0
+    shortest_m: float = 0.1
 
     def straight(self, belief: Belief, turn_rad: float, distance_m: float) -> Drive | None:
         """Return the next part of a straight way; None if not even the shortest is safe."""
         most = min(distance_m, self.hop_m)
         way = float(belief.safe_ways([turn_rad], most)[0])
-        return Drive(turn_rad, way) if way >= min(_SHORTEST_M, distance_m) and way > 0.0 else None
+        return Drive(turn_rad, way) if way >= min(self.shortest_m, distance_m) and way > 0.0 else None
 
     def along(self, belief: Belief, points: Sequence[tuple[float, float]]) -> Drive | None:
         """Return the next drive along a path, whose points are ahead and to the left of the robot: the one that gets on most.
@@ -40,6 +42,6 @@ class Hops:
         along = np.cumsum(np.hypot(*np.diff(ahead, axis=0, prepend=[[0.0, 0.0]]).T))
         ways = np.minimum(belief.safe_ways(turns, self.hop_m), lengths)
         gained = along - (lengths - ways)  # what of the path is behind it then
-        order = [at for at in np.argsort(-gained, kind="stable").tolist() if ways[at] >= _SHORTEST_M]
+        order = [at for at in np.argsort(-gained, kind="stable").tolist() if ways[at] >= self.shortest_m]
         drives = (self.straight(belief, float(turns[at]), float(ways[at])) for at in order[:_TRIES])
         return next((drive for drive in drives if drive is not None), None)

@@ -7,6 +7,7 @@ import numpy as np
 from ial.active.belief import Belief
 from ial.active.decision import Decision
 from ial.active.planners.hops import Hops
+from ial.active.robot import Drive
 
 _DIRECTIONS = 36
 
@@ -31,11 +32,12 @@ class RandomPlanner:
 
     def choose(self, belief: Belief) -> Decision:
         """Return the next decision."""
-        ahead = self._hops.straight(belief, 0.0, self._hops.hop_m)
-        if ahead is not None and ahead.distance_m == self._hops.hop_m:
-            return Decision(ahead, "random", "straight on", goes_on=belief.motion is not None)
-        for turn in self._random.permutation(2.0 * math.pi * np.arange(_DIRECTIONS) / _DIRECTIONS - math.pi).tolist():
-            drive = self._hops.straight(belief, turn, self._hops.hop_m)
-            if drive is not None:
-                return Decision(drive, "random", "in a direction at random")
+        turns = 2.0 * math.pi * np.arange(_DIRECTIONS) / _DIRECTIONS - math.pi
+        ways = belief.safe_ways(np.append(turns, 0.0), self._hops.hop_m)
+        if ways[-1] == self._hops.hop_m:
+            return Decision(Drive(0.0, self._hops.hop_m), "random", "straight on", goes_on=belief.motion is not None)
+        free = np.flatnonzero(ways[:-1] >= self._hops.shortest_m)
+        if len(free):
+            chosen = int(self._random.choice(free))
+            return Decision(Drive(float(turns[chosen]), float(ways[chosen])), "random", "in a direction at random")
         return Decision(None, "exhausted", "no direction is safe wherever the robot is")

@@ -9,7 +9,8 @@ from ial.cli.active import options as given
 from ial.cli.shell.options import ConfigPath, Json, MapTopic, Overwrite, Semantics
 from ial.cli.shell.out_folder import point_latest, stamped_folder
 from ial.cli.shell.outputs import check_folder, check_outputs
-from ial.cli.shell.terminal import remark, say, say_json, shown
+from ial.cli.shell.terminal import progress, remark, say, say_json, shown
+from ial.errors import ConfigError
 
 NEVER_LOCALIZED = 3
 
@@ -22,6 +23,8 @@ def explore(
     seed: given.Seed = 0,
     drives: given.Drives = 200,
     animate: given.Animation = None,
+    compare: given.Compare = False,
+    starts: given.Starts = None,
     world: given.WorldChoice = None,
     radius: given.Radius = 0.2,
     clearance: given.Clearance = None,
@@ -48,9 +51,11 @@ def explore(
 
     As far as the map is right, no drive brings it nearer to anything than its radius, wherever it may still be. Errors of its odometry are
     as large as the configuration says; if it says nothing, smaller than those that `ial localize` allows.
-    Writes what `ial localize` writes, and decisions.jsonl, tree.png and truth.tum.
+    Writes what `ial localize` writes, and decisions.jsonl, tree.png and truth.tum. With --compare, writes comparison.csv instead.
     """
     from ial.active.safe_way import Distances
+    from ial.cli.active.comparison import FILES as COMPARED
+    from ial.cli.active.comparison import Comparison, table
     from ial.cli.active.job import FILES, ExplorationJob
     from ial.cli.active.planning import Planning
     from ial.cli.active.report import report
@@ -59,6 +64,15 @@ def explore(
     from ial.cli.lidar.config_file import resolve
     from ial.results.active.film import check_film_name
 
+    if starts is not None and not compare:
+        raise ConfigError("--starts needs --compare; a single run starts at --start, or where --seed says")
+    if compare:
+        alone = {"--start": start, "--animate": animate, "--alpha": alpha, "--beta": beta, "--raw": raw, "--guaranteed": guaranteed}
+        foreign = [option for option, said in alone.items() if said not in (None, False)]
+        if foreign or planner != "direction":
+            raise ConfigError(
+                f"{', '.join(foreign or ['--planner'])}: not with --compare, which runs every planner from starts that are drawn"
+            )
     if map_choice is None:
         map_choice, start = given.EMBEDDED_MAP, start or given.EMBEDDED_START
     surroundings = Surroundings(map_choice, world, semantics, map_topic)
@@ -67,9 +81,21 @@ def explore(
         Distances(radius, clearance)
     beneath = {"robot_radius_m": radius + given.SPARE_M, **simulated.bounds(same_world=world is None)}
     resolved = resolve(config, settings or (), beneath=beneath, outliers=outliers, robot_radius_m=clearance)
+    folder = out or stamped_folder(f"{'compare' if compare else 'explore'}-{surroundings.name}")
+    if compare:
+        check_folder(folder, COMPARED, [*surroundings.paths, config], overwrite)
+        rows = Comparison(surroundings, simulated, resolved, given.STARTS if starts is None else starts, seed, drives, folder).run(
+            lambda runs, count: progress(runs, count, surroundings.name)
+        )
+        if as_json:
+            say_json(rows)
+        else:
+            for line in table(rows["runs"]):
+                say(line)
+            say(f"results in {shown(folder)}")
+        return
     if animate is not None:
         check_film_name(animate)
-    folder = out or stamped_folder(f"explore-{surroundings.name}")
     job = ExplorationJob(
         surroundings, simulated, Planning(planner, alpha, beta, raw, guaranteed, seed), resolved, folder, start, seed, drives, animate
     )

@@ -11,6 +11,9 @@ SPARE_M = 0.15
 EMBEDDED_MAP, EMBEDDED_START = "plan:office", (17.6, 9.8, -1.3)
 """What is explored if nobody says: from here, a robot needs both stages of the planner."""
 
+STARTS = 10
+"""From so many starts planners are compared, if nobody says."""
+
 PlannerName = Literal["direction", "entropy", "target", "random", "frontier"]
 
 MapChoice = Annotated[
@@ -69,4 +72,8 @@ Raw = Annotated[bool, typer.Option("--raw", help="Weigh differences in metres, a
 Guaranteed = Annotated[bool, typer.Option("--guaranteed", help="Compare bounds of what can be read, and not single readings.")]
 Animation = Annotated[
     Path | None, typer.Option("--animate", metavar="FILE", help="Write a film of the run: a name that ends in .gif or .mp4.")
+]
+Compare = Annotated[bool, typer.Option("--compare", help="Drive from the same starts with every planner, and print a table.")]
+Starts = Annotated[
+    int | None, typer.Option(metavar="N", help="With --compare: from so many starts, which are drawn.", show_default=str(STARTS))
 ]

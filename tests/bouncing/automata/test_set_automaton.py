@@ -42,6 +42,7 @@ def test_the_automaton_is_that_of_the_filter() -> None:
         determinize_sets(MADE.graph, 3)
 
 
+@pytest.mark.many
 def test_a_larger_set_may_stand_for_another_one() -> None:
     sizes = []
     for growth in map(Fraction, ("0", "1/4", "1", "3")):

@@ -23,7 +23,7 @@ from ial.results.lidar.json_lines import read_lines
 Cli = Callable[..., Any]
 Refused = Callable[..., str]
 
-ROOMS = ("explore", "--map", "plan:rooms", "--start", 6, 3.3, -1.3)
+ROOMS = ("explore", "--map", "plan:rooms", "--start", 7, 5.5, 1.0)
 
 
 def closets() -> Path:

@@ -50,6 +50,7 @@ def test_the_reverse_of_a_function(operation: Operation) -> None:
         assert narrow(operation, c) == (reversed_by(ONE[operation], c, ENTIRE),)
 
 
+@pytest.mark.many
 @pytest.mark.parametrize(("operation", "sought", "kernel"), TWO, ids=["mulRev", "powRev1", "powRev2", "atan2Rev1", "atan2Rev2"])
 def test_the_reverse_for_one_of_two_operands(operation: Operation, sought: int, kernel: Any) -> None:
     kept = 0

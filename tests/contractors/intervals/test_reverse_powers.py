@@ -36,6 +36,7 @@ def test_no_radicand_is_lost(n: int) -> None:
     assert_narrows(narrowed, priors)
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("n", EXPONENTS)
 def test_bases_of_integer_powers_are_nearly_tight(n: int) -> None:
     near, (prior,), _ = problems(lambda x: ival.pown(x, n), 3, points(1000, n + 4000, 3.0))

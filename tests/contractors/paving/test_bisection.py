@@ -34,6 +34,7 @@ def axis_of(lower: FloatArray, upper: FloatArray, last: int, precision: FloatArr
     return max(sides, key=lambda k: excess[k] if rule == "largest" else weights[k])
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("rule", ["largest", "round_robin", "weights"])
 @pytest.mark.parametrize("rows", [0, 1, 37, 1024, 5000])
 def test_rows_are_divided_as_one_by_one(rule: str, rows: int) -> None:

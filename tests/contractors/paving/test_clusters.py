@@ -260,6 +260,7 @@ def test_boxes_that_cannot_be_clustered_are_refused(boxes: Boxes, circular: tupl
         cluster(boxes, circular)
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("axis", [0, 1])
 def test_any_axis_may_be_the_circular_one(axis: int) -> None:
     """Rows are compared in the order of a curve that follows the last axis first; boxes across the cut come in any order along another."""

@@ -168,6 +168,7 @@ def test_the_side_widest_in_units_of_its_precision_is_bisected_first() -> None:
     assert as_set(paving.boxes) == {(0.0, 0.0, 8.0, 2.0), (0.0, 2.0, 8.0, 4.0)}
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("max_boxes", [1, 7, 100])
 @pytest.mark.parametrize("batch", [8, 1 << 18])
 def test_a_limit_on_boxes_gives_a_coarser_paving_that_covers_and_says_so(max_boxes: int, batch: int) -> None:

@@ -25,6 +25,7 @@ def random_boxes(random: np.random.Generator, rows: int, dimension: int) -> Boxe
     return Boxes(lower, lower + random.exponential(size=lower.shape) * 10.0 ** random.integers(-9, 9, lower.shape))
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("dimension", [1, 2, 3, 6])
 def test_the_volume_encloses_the_exact_one_closely(dimension: int) -> None:
     for seed in range(20):

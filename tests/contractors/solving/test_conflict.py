@@ -17,6 +17,7 @@ def conflicting(seed: int) -> Problem:
     return Problem((x, y), {x: (-3, 3), y: (-3, 3)}, constraints)
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("seed", range(8))
 def test_a_conflict_is_irreducible(seed: int) -> None:
     problem = conflicting(seed)
@@ -57,6 +58,7 @@ def test_why_empty_names_the_conflict_and_only_it() -> None:
         Problem((x, y), domains).why_empty(0.1)
 
 
+@pytest.mark.many
 def test_a_finer_precision_proves_more() -> None:
     x, y = variables("x y")
     circle, line = x**2 + y**2 <= 1, x + y >= 1.415

@@ -107,6 +107,7 @@ def test_no_zero_is_proved() -> None:
     assert len(solutions.unique) == len(solutions.undecided) == 0
 
 
+@pytest.mark.many
 def test_a_zero_on_the_border_of_the_box_is_undecided_and_one_beyond_is_not_found() -> None:
     x = variables("x")
     on = zeros(Function(x**2 - Interval(2, 3)), Boxes.of([(1.5, 3)]), 1e-3)  # the zero of some numbers in [2, 3] lies in the box
@@ -122,6 +123,7 @@ def test_a_zero_on_the_border_of_the_box_is_undecided_and_one_beyond_is_not_foun
     assert inside(root.undecided, [0.0])
 
 
+@pytest.mark.many
 def test_zeros_on_the_cuts_of_bisection_are_found_once() -> None:
     x, y = variables("x y")
     solutions = zeros(Function(sin(math.pi * x), sin(math.pi * y)), Boxes.of([(-2.5, 2.5), (-2.5, 2.5)]), 0.05)
@@ -132,6 +134,7 @@ def test_zeros_on_the_cuts_of_bisection_are_found_once() -> None:
             assert (np.abs(solutions.unique.midpoint() - [i, j]).max(axis=1) < 1e-12).sum() == 1
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("seed", range(12))
 def test_random_polynomials_have_the_zeros_that_numpy_finds(seed: int) -> None:
     random = np.random.default_rng(seed)
@@ -149,6 +152,7 @@ def test_random_polynomials_have_the_zeros_that_numpy_finds(seed: int) -> None:
         assert len(solutions.unique) == len(real)
 
 
+@pytest.mark.many
 def test_a_certified_box_holds_the_zero_that_mpmath_finds() -> None:
     random = np.random.default_rng(5)
     x, y, z = variables("x y z")
@@ -179,6 +183,7 @@ def test_intervals_as_constants_stand_for_each_of_their_numbers() -> None:
     assert certificate.boxes.upper[0, 0] == pytest.approx(math.sqrt(3))
 
 
+@pytest.mark.many
 def test_a_large_linear_system() -> None:
     n = 10
     random = np.random.default_rng(0)

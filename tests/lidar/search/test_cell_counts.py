@@ -93,6 +93,7 @@ def test_cells_are_kept_like_boxes_of_their_parts() -> None:
     assert more < 0.002 * kept
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("threads", [1, 3])
 def test_cells_outside_the_domain_are_dropped_on_any_number_of_threads(threads: int) -> None:
     mask = np.zeros((200, 300), dtype=np.bool_)

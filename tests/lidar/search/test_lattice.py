@@ -172,6 +172,7 @@ def test_the_root_holds_the_map_and_is_bisected_down_to_the_cells(size: tuple[fl
     assert len(lattice.cover(paving.boxes, PLENTY)) <= 3  # the margin of the heading may take in its neighbours, nothing else
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("position", [0.1, 0.05, 0.3, 1.0 / 3.0, 0.25])
 def test_halves_of_cells_never_stick_out_of_their_cell(position: float) -> None:
     # A half that sticks out by one bit would take a whole cell more; the paver bisects down to halves.

@@ -103,6 +103,7 @@ def test_no_boxes_stay_no_boxes() -> None:
     assert move(Boxes.none(3), Motion.identity()).lower.shape == (0, 3)
 
 
+@pytest.mark.many
 def test_the_number_of_threads_changes_no_bit() -> None:
     boxes, motion = random_boxes(np.random.default_rng(4), cases(5000, 1000)), random_motion(np.random.default_rng(5))
     outcomes = []

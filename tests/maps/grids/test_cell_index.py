@@ -284,6 +284,7 @@ def test_a_part_with_its_origin_answers_as_the_whole_grid_does() -> None:
         assert (met == CellIndex(alone, resolution).meet(boxes)).all()
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("resolution", [0.013, 0.042, 0.045, 0.052, 0.09, 0.05, 0.1])
 def test_a_box_that_only_touches_a_cell_meets_it_whatever_the_inverse_of_the_resolution_is(resolution: float) -> None:
     """A resolution times its rounded inverse may be less than 1; multiples by powers of 2 are exact, so the edge is a double."""

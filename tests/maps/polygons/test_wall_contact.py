@@ -54,6 +54,7 @@ def cells_of(raster: Raster, x: Fraction, y: Fraction) -> list[int]:
     ]
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("seed", range(24))
 def test_a_disk_that_touches_a_wall_stands_in_one_of_its_cells(seed: int) -> None:
     chooser = random.Random(seed)

@@ -52,6 +52,7 @@ def test_what_is_known_of_a_wall_is_wrong_by_less_than_is_said(seed: int) -> Non
             assert exactly.ends[walls.before[at]] == exactly.starts[at]
 
 
+@pytest.mark.many
 def test_the_slant_covers_a_direction_that_the_rounding_of_both_ends_has_turned() -> None:
     """Short walls far from the corner from which coordinates are counted: their ends are rounded by as much as a part of their length."""
     worst = 0.0

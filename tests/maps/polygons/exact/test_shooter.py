@@ -76,6 +76,7 @@ def directions(polygon: Polygon, start: ExactPoint, chooser: random.Random) -> l
     return [each for each in made if each != (0, 0)]
 
 
+@pytest.mark.many
 @pytest.mark.parametrize("seed", range(24))
 def test_rays_end_where_the_next_part_is_not_free(seed: int) -> None:
     chooser = random.Random(seed)
