@@ -1,5 +1,6 @@
 """Active localization: whether the truth is ever lost or anything touched, whether it ends, and its cost against one-step entropy."""
 
+import itertools
 import math
 import os
 from collections import Counter
@@ -8,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from statistics import median
 
+import numpy as np
 from report import Report, options
 from timing import timed
 
@@ -58,10 +60,13 @@ def lidar_of(name: str) -> Lidar:
 
 
 def scene(knows: Localizer, lidar: Lidar, seed: int) -> tuple[Belief, SimulatedRobot]:
-    """Return a start."""
+    """Return a start from which something is seen."""
     knows.reset()
-    start = random_walk(knows.grid, 1, seed, clearance_m=CLEARANCE_M + 0.1)[0]
     errors = Errors(SensorErrors(0.02, 0.002, 2, adversarial=seed % 2 == 1), MOTION)
+    for drawn in itertools.count(seed, 10_000):
+        start = random_walk(knows.grid, 1, drawn, clearance_m=CLEARANCE_M + 0.1)[0]
+        if np.isfinite(SimulatedRobot(knows.grid, start, lidar, errors, RADIUS_M, seed).look().ranges).sum() > 10:
+            break
     return Belief(knows, RADIUS_M, LONGEST_S), SimulatedRobot(knows.grid, start, lidar, errors, RADIUS_M, seed)
 
 

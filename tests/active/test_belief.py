@@ -43,19 +43,21 @@ def test_of_many_groups_some_of_every_part_are_left() -> None:
 def test_what_is_stopped_by_something_keeps_its_radius_only_and_the_set_holds_it(seed: int) -> None:
     grid = room()
     cells = grid.cells.copy()
-    cells[13:16, 4:6] = OCCUPIED  # nothing in the map shows it
+    cells[18:21, 4:6] = OCCUPIED  # nothing in the map shows it
     world = OccupancyGrid(cells, 0.05)
-    known = Belief(Localizer(grid, config=dataclasses.replace(config(0.5), outliers=14)), RADIUS_M, LONGEST_S)
-    driving = robot(world, Pose(1.4, 0.75, np.pi), seed)
+    known = Belief(Localizer(grid, config=dataclasses.replace(config(0.7), outliers=14)), RADIUS_M, LONGEST_S)
+    driving = robot(world, Pose(1.4, 1.0, np.pi), seed)
     known.update(None, driving.look())
     driven = driving.drive(Drive(0.0, 1.0))
     assert driven.collided
     estimate = known.update(driven.motion, driven.reading, collided=driven.collided)
     assert estimate.poses.contains(grid.pose_to_grid(driving.pose))
     near = min(distance_to_walls(grid, *middle) for middle in known.poses.midpoint()[:, :2].tolist())
-    assert RADIUS_M - 0.1 < near < 0.5, "it may have been stopped before it had its clearance again"
-    straight, back = known.safe_ways([0.0, np.pi], 0.8).tolist()
+    assert RADIUS_M - 0.1 < near < 0.7, "it may have been stopped before it had its clearance again"
+    assert distance_to_walls(grid, driving.pose.x, driving.pose.y) < 0.6, "a set that kept the clearance would not hold it"
+    straight, along, back = known.safe_ways([0.0, 0.5 * np.pi, np.pi], 0.8).tolist()
     assert straight < 0.05, "it would run into the same thing"
+    assert along == -1.0, "along the wall it has not its clearance"
     if back < 0.0:  # the set is too large to know that
         assert seed
         return
@@ -63,4 +65,4 @@ def test_what_is_stopped_by_something_keeps_its_radius_only_and_the_set_holds_it
     assert not driven.collided
     estimate = known.update(driven.motion, driven.reading)
     assert estimate.poses.contains(grid.pose_to_grid(driving.pose))
-    assert known.localizer.config.robot_radius_m == 0.5
+    assert known.localizer.config.robot_radius_m == 0.7

@@ -65,6 +65,20 @@ def test_of_several_poses_the_nearest_to_a_wall_decides() -> None:
     assert (ways[2] <= np.minimum(ways[0], ways[1])).all()
 
 
+def test_a_way_that_passes_too_near_to_something_ends_before_it_however_free_its_end_is() -> None:
+    beside, past = Boxes.around([(2.4, 1.36, 0.0)], [0.0] * 3), Boxes.around([(2.4, 0.9, 0.0)], [0.0] * 3)  # a pillar begins at 3.0, 1.5
+    assert safe_ways(beside, [0.0], 2.0, FIELD, KEPT, MOTION, LONGEST_S)[0] < 0.5
+    assert safe_ways(past, [0.0], 2.0, FIELD, KEPT, MOTION, LONGEST_S)[0] == 2.0
+
+
+def test_among_very_many_poses_one_decides() -> None:
+    many, one = Boxes.around([(3.0, 1.0, 0.0)] * 300, [0.01] * 3), Boxes.around([(5.0, 1.0, 0.0)], [0.01] * 3)
+    alone = safe_ways(one, [0.0], 2.0, FIELD, KEPT, MOTION, LONGEST_S)
+    assert alone[0] < 0.6 < safe_ways(many, [0.0], 2.0, FIELD, KEPT, MOTION, LONGEST_S)[0]
+    for boxes in ([one, many], [many, one]):
+        assert safe_ways(Boxes.concatenate(boxes), [0.0], 2.0, FIELD, KEPT, MOTION, LONGEST_S) == alone
+
+
 def test_a_pose_without_clearance_is_impossible_and_in_nobodys_way() -> None:
     near, far = Boxes.around([(0.2, 2.0, 0.0)], [0.01] * 3), Boxes.around([(3.0, 1.0, 0.0)], [0.01] * 3)
     assert safe_ways(Boxes.concatenate([near, far]), [0.0], 0.5, FIELD, KEPT, MOTION, LONGEST_S) == safe_ways(
