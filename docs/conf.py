@@ -61,6 +61,7 @@ def draw_pictures(app):
         draw_floor_plan((docs / "floor-plan.md").read_text(encoding="utf-8"))
         for name in ("compass", "odometer"):
             draw_shown((docs / f"{name}.md").read_text(encoding="utf-8"))
+        draw_explorations(docs)
     finally:
         os.chdir(here)
 
@@ -90,6 +91,15 @@ def draw_shown(page):
 
     for command in re.findall(r"^\$ ial (\w+ (?:plan|show) .*)$", page, re.MULTILINE):
         app([*shlex.split(command), "--overwrite"], standalone_mode=False)
+
+
+def draw_explorations(docs):
+    """Run the explorations of their page: the film and the tree that a command leaves, and the runs of its figures."""
+    from ial.cli.main import app
+
+    for command in re.findall(r"^\$ ial (explore .* --animate .*)$", (docs / "exploring.md").read_text(encoding="utf-8"), re.MULTILINE):
+        app([*shlex.split(command), "--overwrite"], standalone_mode=False)
+    runpy.run_path(str(docs / "explorations.py"))["draw"](Path.cwd())
 
 
 def draw_house(app):

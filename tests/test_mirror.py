@@ -6,6 +6,7 @@ from tests.test_house import ROOT, kept_files
 
 ACROSS = {  # tests of no single file, and what they are of
     "bouncing/test_margins.py": "what is rounded about walls and headings, from the polygon to the set",
+    "cli/active/test_page.py": "the page on where to drive: its commands, its examples, and what it says of its pictures",
     "cli/compass/test_page.py": "the page about the compass robot, command by command",
     "cli/odometer/test_page.py": "the page about the odometer robot, command by command",
     "cli/test_bad_input.py": "everything that a user can do wrong in the main job",
@@ -43,9 +44,12 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
             "decision",
             "knowledge",
             "planners/entropy",
+            "planners/goal",
+            "planners/goal_choice",
             "planners/hops",
-            "planners/known_frontier",
+            "planners/known_frontiers",
             "planners/nearest_frontier",
+            "planners/outlook",
             "planners/random_walk",
             "planners/route",
             "planners/two_stage",
@@ -110,6 +114,7 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
         "bouncing/exports/test_jflap.py": ["automata_lib", "finite_automaton"],
     },
     "what a picture is drawn on, seen in the pixels of the picture": {
+        "results/active/test_path_picture.py": ["scene"],
         "results/bouncing/test_cycle_picture.py": ["ground", "page"],
         "study/test_failures.py": ["../results/lidar/failure_picture"],
     },

@@ -168,9 +168,7 @@ class Belief:
         if motion is not None:
             middle = 0.5 * (motion.lower + motion.upper)
             self.moved = self.moved @ Pose(*middle.tolist())
-        last = scan.angle_min + (len(scan.ranges) - 1) * scan.angle_increment
-        first, last = min(scan.angle_min, last), max(scan.angle_min, last)
-        self.view = View(self.moved @ scan.mounting.pose, scan.range_max, first, last)
+        self.view = View.of(scan, self.moved)
         if collided:
             self.bumps.add(self.moved)
         return self.estimate

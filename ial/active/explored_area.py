@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy import ndimage
 
+from ial.datasets.scan import LaserScan
 from ial.maps.grids.occupancy_grid import FREE, OCCUPIED, OccupancyGrid
 from ial.maps.grids.ray_casting import cast_rays
 from ial.pose import Pose
@@ -36,6 +37,12 @@ class View:
     range_m: float
     first_rad: float
     last_rad: float
+
+    @classmethod
+    def of(cls, scan: LaserScan, robot: Pose) -> "View":
+        """Return what the lidar of a scan could see from a pose of the robot."""
+        last = scan.angle_min + (len(scan.ranges) - 1) * scan.angle_increment
+        return cls(robot @ scan.mounting.pose, scan.range_max, min(scan.angle_min, last), max(scan.angle_min, last))
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from itertools import pairwise
@@ -12,22 +12,19 @@ from typing import Any
 import numpy as np
 
 from ial.active.belief import Belief
-from ial.active.exploration import ENDS, ExplorationStep, explore
+from ial.active.exploration import ENDS, explore
 from ial.active.robot import Drive
 from ial.active.simulated_robot import SimulatedRobot
 from ial.cli.active.planning import HOPS, Planning
 from ial.cli.active.report import line_of
 from ial.cli.active.simulated import Simulated
 from ial.cli.active.surroundings import Surroundings
-from ial.datasets.odometry import Odometry
-from ial.datasets.recording import Step
 from ial.errors import ConfigError
 from ial.lidar.configuration.config import LocalizerConfig
-from ial.lidar.estimate import Estimate
 from ial.lidar.localizer import Localizer
 from ial.results.active.animation import ExplorationAnimation
 from ial.results.active.decisions import DecisionsFile
-from ial.results.active.leg import Leg
+from ial.results.active.leg import Leg, legs
 from ial.results.active.tree_picture import TreePicture
 from ial.results.active.true_path import TruePath
 from ial.results.lidar.result_folder import ResultFolder
@@ -130,7 +127,7 @@ class ExplorationJob:
                 film = stack.enter_context(ExplorationAnimation(self.film, grid, self.simulated.radius_m, source.name))
             taken = explore(belief, robot, self.planning.planner(belief), self.drives)
             times = []
-            for leg in _legs(belief, robot, taken):
+            for leg in legs(belief, robot, taken):
                 if leg.drives or not leg.number:
                     with folder.writing():
                         truth.add(leg.step.stamp_ns, leg.truth)
@@ -198,19 +195,3 @@ class ExplorationJob:
             "animate": None if self.film is None else str(self.film),
             "out": str(self.out),
         }
-
-
-def _legs(belief: Belief, robot: SimulatedRobot, taken: Iterator[ExplorationStep[Estimate]]) -> Iterator[Leg]:
-    """Yield each decision with what came of it."""
-    step, before = None, None
-    index = -1
-    for number, each in enumerate(taken):
-        if each.decision is None or each.decision.drive is not None:
-            if belief.scan is None:
-                raise AssertionError("a step of an exploration comes with a scan")
-            index += 1
-            step = Step(index, belief.scan.stamp_ns, belief.motion, belief.scan, Odometry.of(each.moved))
-        if step is None:
-            raise AssertionError("an exploration begins with a look")
-        yield Leg(number, before, step, each, belief.groups(), robot.pose)
-        before = len(each.estimate.hypotheses)

@@ -1,10 +1,13 @@
-"""`Leg`: one decision of an exploration and what came of it, as files show it."""
+"""`Leg`: one decision of an exploration and what came of it, as files show it; `legs`: those of a simulated robot."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ial.active.belief import Groups
+from ial.active.belief import Belief, Groups
 from ial.active.exploration import ExplorationStep
+from ial.active.simulated_robot import SimulatedRobot
+from ial.datasets.odometry import Odometry
 from ial.datasets.recording import Step
 from ial.lidar.estimate import Estimate
 from ial.pose import Pose
@@ -62,3 +65,29 @@ class Leg:
             return f"{decision.stage}: {decision.reason}"
         turn = math.degrees(decision.drive.turn_rad)
         return f"{decision.stage}: {decision.reason}; turn {turn:.0f}°, drive {decision.drive.distance_m:.2f} m"
+
+
+def legs(belief: Belief, robot: SimulatedRobot, taken: Iterator[ExplorationStep[Estimate]]) -> Iterator[Leg]:
+    """Yield each decision of an exploration with what came of it.
+
+    Parameters
+    ----------
+    belief
+        What is known.
+    robot
+        What drives.
+    taken
+        The steps of `explore` of these two, none of which was taken yet.
+    """
+    step, before = None, None
+    index = -1
+    for number, each in enumerate(taken):
+        if each.decision is None or each.decision.drive is not None:
+            if belief.scan is None:
+                raise AssertionError("a step of an exploration comes with a scan")
+            index += 1
+            step = Step(index, belief.scan.stamp_ns, belief.motion, belief.scan, Odometry.of(each.moved))
+        if step is None:
+            raise AssertionError("an exploration begins with a look")
+        yield Leg(number, before, step, each, belief.groups(), robot.pose)
+        before = len(each.estimate.hypotheses)
