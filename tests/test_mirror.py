@@ -5,6 +5,7 @@ from pathlib import PurePosixPath
 from tests.test_house import ROOT, kept_files
 
 ACROSS = {  # tests of no single file, and what they are of
+    "active/test_views.py": "the planner of two stages, beside an exhaustive search over views",
     "bouncing/test_margins.py": "what is rounded about walls and headings, from the polygon to the set",
     "cli/compass/test_page.py": "the page about the compass robot, command by command",
     "cli/odometer/test_page.py": "the page about the odometer robot, command by command",
@@ -43,11 +44,8 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
             "decision",
             "knowledge",
             "planners/entropy",
-            "planners/hops",
-            "planners/known_frontier",
             "planners/nearest_frontier",
             "planners/random_walk",
-            "planners/route",
             "planners/two_stage",
         ],
         "bouncing/automata/test_determinization.py": ["subset"],
