@@ -29,6 +29,7 @@ WAY_M, PARTS = 0.1, 5
 VIEW_M = PARTS * WAY_M
 NEAR_M, NEAR_RAD = 0.5, 0.25  # of the true pose: that is localized
 SPREAD_M, SPREAD_RAD = 0.25, 0.1  # of the poses that stand for a set
+MOST_POSES = 1000
 MOST_RAYS = 20_000  # at a time
 
 
@@ -72,8 +73,9 @@ class ViewsOracle:
 
     def __init__(self, grid: OccupancyGrid, lidar: Lidar, radius_m: float, clearance_m: float, allowed: int, real: int) -> None:
         self.grid, self.lidar = grid, lidar
-        # Two cells on the diagonal, errors of position and of motion against it; two cells on the diagonal in its favour.
-        self.strict = Margins(radius_m + 0.15, clearance_m + 0.15, 0.4, 1, allowed + real + 2)
+        # Against it: two cells on the diagonal, errors of position and of motion; readings from anywhere in a cube differ by half of its
+        # diagonal. In its favour: two cells on the diagonal, and the steps of a ray.
+        self.strict = Margins(radius_m + 0.15, clearance_m + 0.15, 0.3, 1, allowed + real + 2)
         self.lenient = Margins(radius_m - 0.1, clearance_m - 0.1, 0.03, 0, allowed - real)
         away = ndimage.distance_transform_edt(np.pad(grid.cells == FREE, 1))
         self._clear = np.asarray(away)[1:-1, 1:-1] * grid.resolution
@@ -173,11 +175,13 @@ class ViewsOracle:
 
 
 def _spread(possible: Boxes) -> FloatArray:
-    """Return poses of a set, one for each cube of it."""
-    middle = 0.5 * (possible.lower + possible.upper)
-    cubes = np.floor(middle / [SPREAD_M, SPREAD_M, SPREAD_RAD]).astype(np.int64)
-    _, first = np.unique(cubes, axis=0, return_index=True)
-    return middle[first]
+    """Return poses of a set, one for each cube of it; cubes are larger where there are too many."""
+    middle, size = 0.5 * (possible.lower + possible.upper), np.array([SPREAD_M, SPREAD_M, SPREAD_RAD])
+    while True:
+        _, first = np.unique(np.floor(middle / size).astype(np.int64), axis=0, return_index=True)
+        if len(first) <= MOST_POSES:
+            return middle[first]
+        size *= 1.25
 
 
 def _apart(poses: FloatArray, images: FloatArray) -> FloatArray:

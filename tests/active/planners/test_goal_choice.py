@@ -37,7 +37,7 @@ class Scene:
         assert self.known.view is not None
         self.area.add(self.known.view)
         self.groups: Groups = self.known.groups()
-        self.goals.stand(self.known, self.groups)
+        self.goals.stand(self.known, self.groups, done=True)
         self.space = ROUTE.space(self.known, self.groups)
 
 
