@@ -5,6 +5,7 @@ from pathlib import PurePosixPath
 from tests.test_house import ROOT, kept_files
 
 ACROSS = {  # tests of no single file, and what they are of
+    "active/test_views.py": "the planner of two stages, beside an exhaustive search over views",
     "bouncing/test_margins.py": "what is rounded about walls and headings, from the polygon to the set",
     "cli/active/test_page.py": "the page on where to drive: its commands, its examples, and what it says of its pictures",
     "cli/compass/test_page.py": "the page about the compass robot, command by command",
@@ -44,14 +45,8 @@ UNMIRRORED = {  # files without a test of their own, by the reason, and the test
             "decision",
             "knowledge",
             "planners/entropy",
-            "planners/goal",
-            "planners/goal_choice",
-            "planners/hops",
-            "planners/known_frontiers",
             "planners/nearest_frontier",
-            "planners/outlook",
             "planners/random_walk",
-            "planners/route",
             "planners/two_stage",
         ],
         "bouncing/automata/test_determinization.py": ["subset"],

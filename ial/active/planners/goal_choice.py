@@ -59,13 +59,14 @@ class GoalChoice:
         left = [each for each in self._frontiers.left if all(math.dist(each.place, other) >= near for other in self._chosen + goal)]
         return tuple(sorted(each.since for each in left))
 
-    def stand(self, belief: Belief, groups: Groups) -> None:
-        """Take note of where the robot has looked from."""
+    def stand(self, belief: Belief, groups: Groups, *, done: bool) -> None:
+        """Take note of where the robot has looked from, and whether it is done there: whether it has seen all that can be seen."""
         if groups.parts < self._fewest:  # what was of no use may be of use now
             self._fewest, self._rounds = groups.parts, 0
             self._chosen.clear()
             self._stood.clear()
-        self._stood.append((belief.moved.x, belief.moved.y))
+        if done:
+            self._stood.append((belief.moved.x, belief.moved.y))
 
     def further(self, belief: Belief, groups: Groups, space: CommonSpace, number: int) -> Decision | None:
         """Return the next part of the way to the goal; None if it is reached, cannot be reached, or tells nothing any more."""

@@ -1,5 +1,6 @@
 """`Outlook`: which pairs of possible places a robot would tell apart from where it could go."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -14,6 +15,13 @@ from ial.pose import Pose
 MOST_GROUPS = 24
 _SAME_PART = 0.01  # what a pair of one connected part is worth
 _TOGETHER = 256  # views whose readings are held at a time
+
+
+def seen_part(belief: Belief) -> float:
+    """Return which part of all directions a lidar sees at once."""
+    if belief.scan is None:
+        raise AssertionError("a planner is asked after the first scan")
+    return min(1.0, abs(belief.scan.angle_increment) * len(belief.scan.ranges) / (2.0 * math.pi))
 
 
 @dataclass(frozen=True)
@@ -49,11 +57,12 @@ class Outlook:
         """
         value = np.where(groups.component[:, None] == groups.component, 1.0 if groups.parts == 1 else _SAME_PART, 1.0)
         ahead, aside = np.array(in_robot_frame(here, points)).reshape(-1, 2).T
+        bad = belief.bad_part * seen_part(belief)  # of all directions: there are more beams in each, if they do not look all around
         found = []
         for begin in range(0, len(ahead), _TOGETHER):
             part = slice(begin, begin + _TOGETHER)
             moved = moved_along(groups.poses, ahead[part], aside[part])
             readings = self.sensors.readings(moved, directions(SENSORS), belief.range_m)
             tells = np.full(readings.shape, True) if belief.uses_no_return else readings < belief.range_m
-            found.append(told_apart(readings, tells, value, self.same_m, belief.bad_part))
+            found.append(told_apart(readings, tells, value, self.same_m, bad))
         return np.concatenate(found) if found else np.zeros(0)

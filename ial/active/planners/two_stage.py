@@ -18,6 +18,7 @@ from ial.active.direction_choice import DirectionChoice, Weights
 from ial.active.explored_area import ExploredArea
 from ial.active.planners.goal_choice import GoalChoice
 from ial.active.planners.known_frontiers import KnownFrontiers
+from ial.active.planners.look_around import LookAround
 from ial.active.planners.outlook import MOST_GROUPS, Outlook
 from ial.active.planners.route import Route
 from ial.active.virtual_sensors import VirtualSensors, directions
@@ -78,6 +79,7 @@ class TwoStagePlanner:
         self._outlook = Outlook(self._sensors, self.options.weights.same_m)
         self._area = ExploredArea(belief.grid)
         self._goals = GoalChoice(self._outlook, KnownFrontiers(self._area, self.options.least_cells, self._route), self._route)
+        self._around = LookAround(self._outlook)
         self._leg: _Leg | None = None
         self._tried_here = False
         self._decisions = 0
@@ -91,7 +93,9 @@ class TwoStagePlanner:
         if belief.view is not None:
             self._area.add(belief.view)
         groups = belief.groups(most=MOST_GROUPS)
-        self._goals.stand(belief, groups)
+        if self._decisions == 1:
+            self._around.begin(belief)
+        self._goals.stand(belief, groups, done=self._around.has_seen_all(belief))
         return dataclasses.replace(self._along_leg(belief) or self._chosen(belief, groups), open=self._goals.open)
 
     def _chosen(self, belief: Belief, groups: Groups) -> Decision:
@@ -101,7 +105,13 @@ class TwoStagePlanner:
             further = self._goals.further(belief, groups, space, self._decisions)
             if further is not None:
                 return further
+            self._around.begin(belief)
             self._tried_here = False
+        if self._around.begun:
+            space = self._route.space(belief, groups) if space is None else space
+            turn = self._around.further(belief, groups, space)
+            if turn is not None:
+                return turn
         if not self._tried_here and len(groups) > 1:
             self._tried_here = True
             decision = self.by_direction(belief, groups)
@@ -121,6 +131,7 @@ class TwoStagePlanner:
             self._leg.left_m -= drive.distance_m
         if drive is None or self._leg.left_m <= 0.0:
             self._leg = None
+            self._around.begin(belief)
         return None if drive is None else Decision(drive, "direction", "further in the same direction", goes_on=True)
 
     def by_direction(self, belief: Belief, groups: Groups) -> Decision | None:
@@ -144,6 +155,8 @@ class TwoStagePlanner:
             return None
         if drive.distance_m < way:
             self._leg = _Leg(belief.moved.theta + turn, way - drive.distance_m)
+        else:
+            self._around.begin(belief)
         reason = f"{choice.differing[best]} of {len(groups)} groups read differently at {math.degrees(turn):.0f}°, {way:.2f} m on"
         return Decision(drive, "direction", reason)
 
