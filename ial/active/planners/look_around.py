@@ -26,9 +26,20 @@ class LookAround:
         self._outlook = outlook
         self._left = 0
         self._last: Place | None = None
+        self._unsafe = False
 
     def __repr__(self) -> str:
         return f"<LookAround: {self._left} turns are left>"
+
+    @property
+    def begun(self) -> bool:
+        """Whether turns are left."""
+        return self._left > 0
+
+    @property
+    def unsafe(self) -> bool:
+        """Whether the robot has not looked in all directions where it would have told something, since that was not safe."""
+        return self._unsafe
 
     def begin(self, belief: Belief) -> None:
         """Begin where the robot will be at the next decision."""
@@ -40,21 +51,19 @@ class LookAround:
 
     def further(self, belief: Belief, groups: Groups, space: CommonSpace) -> Decision | None:
         """Return the next turn; None if all was seen, if nothing would be told apart, or if no turn is safe."""
+        self._unsafe = False
         if not self._left:
             return None
         turn, here = 2.0 * math.pi / _looks(belief), [(space.here.x, space.here.y)]
-        if self._outlook.worth(belief, groups, space.here, here)[0] <= 0.0 or belief.safe_ways([turn], 0.0)[0] < 0.0:
+        told = self._outlook.worth(belief, groups, space.here, here)[0] > 0.0
+        self._unsafe = told and bool(belief.safe_ways([turn], 0.0)[0] < 0.0)
+        if not told or self._unsafe:
             self._left = 0
             return None
         self._left -= 1
         if not self._left:
             self._last = belief.moved.x, belief.moved.y
         return Decision(Drive(turn, 0.0), "view", f"to look in another direction, {self._left} more to come")
-
-    @property
-    def begun(self) -> bool:
-        """Whether turns are left."""
-        return self._left > 0
 
 
 def _looks(belief: Belief) -> int:

@@ -119,7 +119,10 @@ class TwoStagePlanner:
                 return decision
         self._tried_here = False
         space = self._route.space(belief, groups) if space is None else space
-        return self._goals.choose(belief, groups, space, self._decisions)
+        chosen = self._goals.choose(belief, groups, space, self._decisions)
+        if chosen.drive is None and self._around.unsafe:
+            chosen = dataclasses.replace(chosen, reason=f"{chosen.reason}; in other directions it cannot look here: no turn is safe")
+        return chosen
 
     def _along_leg(self, belief: Belief) -> Decision | None:
         """Return the next part of the way in a direction; None if it is done, or cannot be gone on with."""
