@@ -55,6 +55,7 @@ def test_what_is_stopped_by_something_keeps_its_radius_only_and_the_set_holds_it
     near = min(distance_to_walls(grid, *middle) for middle in known.poses.midpoint()[:, :2].tolist())
     assert RADIUS_M - 0.1 < near < 0.7, "it may have been stopped before it had its clearance again"
     assert distance_to_walls(grid, driving.pose.x, driving.pose.y) < 0.6, "a set that kept the clearance would not hold it"
+    assert known.distances.now_m == RADIUS_M, "ways are judged for poses that keep no more than that"
     straight, along, back = known.safe_ways([0.0, 0.5 * np.pi, np.pi], 0.8).tolist()
     assert straight < 0.05, "it would run into the same thing"
     assert along == -1.0, "along the wall it has not its clearance"
@@ -66,3 +67,4 @@ def test_what_is_stopped_by_something_keeps_its_radius_only_and_the_set_holds_it
     estimate = known.update(driven.motion, driven.reading)
     assert estimate.poses.contains(grid.pose_to_grid(driving.pose))
     assert known.localizer.config.robot_radius_m == 0.7
+    assert known.distances.now_m is None
