@@ -1,8 +1,9 @@
 """`DirectionChoice`: along which direction the possible places of a robot differ most (Goyal, Krishna, Bhuvanagiri, stage 1, table I).
 
 For m virtual robots and the readings s of their sensors in direction k: A_k = m − m_k, where m_k is the size of the largest class of equal
-readings, 0 if all differ; B_k = Σ |s_i − s_j| over all pairs; the score is α·A_k + β·B_k. In the paper's form B_k is in metres and grows
-with m², so it outweighs A_k; by default it is divided by what it can be at most, m(m − 1)/2 diameters, and multiplied by m.
+readings, 0 if all differ; B_k is the sum of ``|s_i − s_j|`` over all pairs; the score is α·A_k + β·B_k. In the paper's form B_k is in
+metres and grows with m², so it outweighs A_k; by default it is divided by what it can be at most, m(m − 1)/2 diameters, and multiplied by
+m.
 """
 
 from dataclasses import dataclass
