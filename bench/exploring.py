@@ -170,14 +170,15 @@ def main() -> None:
     parser = options(__doc__ or "")
     parser.add_argument("--starts", type=int, default=26, metavar="N", help="from so many starts in each map")
     parser.add_argument("--drives", type=int, default=300, metavar="N", help="at most so many drives of the two stages")
-    parser.add_argument("--compared", type=int, default=14, metavar="N", help="so many of the starts are compared with entropy")
+    parser.add_argument("--compared", type=int, default=14, metavar="N", help="so many of the starts are compared with entropy; 0 for none")
     parser.add_argument("--entropy-drives", type=int, default=60, metavar="N", help="at most so many drives by entropy")
     parser.add_argument("--maps", nargs="*", default=[*plan_names(), *REAL], metavar="NAME", help="in these maps")
     given = parser.parse_args()
     report = Report("Active localization", ABOUT)
-    decisions(report, given.maps, given.compared)
     found = ends(report, given.maps, given.starts, given.drives)
-    against_entropy(report, given.maps, given.compared, given.entropy_drives, found)
+    if given.compared:
+        decisions(report, given.maps, given.compared)
+        against_entropy(report, given.maps, given.compared, given.entropy_drives, found)
     report.write(given.out)
 
 
