@@ -47,6 +47,8 @@ class Margins:
         With how many readings on each side one is compared.
     bad
         So many of them may differ all the same.
+    again
+        Whether a second look from the start may tell something.
     """
 
     radius_m: float
@@ -54,6 +56,7 @@ class Margins:
     differs_m: float
     beside: int
     bad: int
+    again: bool
 
 
 class ViewsOracle:
@@ -75,8 +78,8 @@ class ViewsOracle:
         self.grid, self.lidar = grid, lidar
         # Against it: two cells on the diagonal, errors of position and of motion; readings from anywhere in a cube differ by half of its
         # diagonal. In its favour: two cells on the diagonal, and the steps of a ray.
-        self.strict = Margins(radius_m + 0.15, clearance_m + 0.15, 0.3, 1, allowed + real + 2)
-        self.lenient = Margins(radius_m - 0.1, clearance_m - 0.1, 0.03, 0, allowed - real)
+        self.strict = Margins(radius_m + 0.15, clearance_m + 0.15, 0.3, 1, allowed + real + 2, again=False)
+        self.lenient = Margins(radius_m - 0.1, clearance_m - 0.1, 0.03, 0, allowed - real, again=True)
         away = ndimage.distance_transform_edt(np.pad(grid.cells == FREE, 1))
         self._clear = np.asarray(away)[1:-1, 1:-1] * grid.resolution
         self._occupied = grid.cells == OCCUPIED
@@ -112,6 +115,7 @@ class ViewsOracle:
         """Return the other poses that no view tells from the true one which can be reached, as long as they are possible."""
         u, v, start = self._lattice(at)
         looked = np.zeros(u.shape, dtype=np.bool_)
+        looked[start] = not margins.again
         while True:
             free = self._free(np.stack([at, *others]), u, v, margins)
             free[:, start[0], start[1]] = True  # it stands there

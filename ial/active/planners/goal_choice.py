@@ -16,9 +16,11 @@ from ial.active.planners.goal import Goal
 from ial.active.planners.known_frontiers import KnownFrontiers
 from ial.active.planners.outlook import Outlook
 from ial.active.planners.route import Place, Route
+from ial.active.virtual_sensors import directions
 
 _ROUNDS = 2  # so often places are tried again that could not be reached
 _VIEW_EVERY, _BLOCKED_EVERY = 2, 4  # places of the lattice of ways
+_DIRECTIONS = 72
 _TELLS = 1.0  # worth of one pair of parts
 
 
@@ -85,6 +87,8 @@ class GoalChoice:
 
     def choose(self, belief: Belief, groups: Groups, space: CommonSpace, number: int) -> Decision:
         """Return the way to the best goal; the end if there is none."""
+        if (belief.safe_ways(directions(_DIRECTIONS), self._route.hops.hop_m) <= 0.0).all():  # then no goal has to be tried
+            return Decision(None, "exhausted", f"in none of {_DIRECTIONS} directions is a way safe wherever the robot is")
         frontiers = self._of_frontiers(belief, groups, space, number)
         views = self._of_views(belief, groups, space)
         decision = self._set_out(belief, space, frontiers + views)

@@ -86,3 +86,11 @@ def test_where_no_view_tells_anything_that_is_said() -> None:
     assert (decision.drive, decision.stage) == (None, "exhausted")
     assert "views, 0.5 m apart" in decision.reason
     assert not scene.goals.has_goal
+
+
+def test_where_no_way_is_safe_no_goal_is_tried() -> None:
+    scene = Scene(alike_plan("rooms"), Pose(1.2, 4.0, 0.5))
+    scene.known.safe_ways = lambda turns, _: np.where(np.arange(len(turns)) % 2, -1.0, 0.0)  # type: ignore[method-assign]
+    decision = scene.goals.choose(scene.known, scene.groups, scene.space, 1)
+    assert (decision.drive, decision.stage) == (None, "exhausted")
+    assert decision.reason == "in none of 72 directions is a way safe wherever the robot is"
