@@ -88,9 +88,11 @@ class ViewsOracle:
         """Return whether views tell a pose of the grid's frame from all others of a set but its images under a symmetry of the map."""
         at = np.array([truth.x, truth.y, truth.theta])
         images = np.stack([at, *self._images(at)])
-        if not len(self._left(at, _apart(_spread(possible), images), self.strict)):
+        every = _apart(0.5 * (possible.lower + possible.upper), images)
+        if not len(self._left(at, every, _spread(every), self.strict)):
             return "localizable"
-        return "not" if len(self._left(at, _apart(self._copies(at, possible), images), self.lenient)) else "undecided"
+        copies = _apart(self._copies(at, possible), images)
+        return "not" if len(self._left(at, copies, np.arange(len(copies)), self.lenient)) else "undecided"
 
     def _images(self, at: FloatArray) -> list[FloatArray]:
         """Return the images of a pose under the turns that map the whole map onto itself."""
@@ -111,10 +113,13 @@ class ViewsOracle:
                 found |= {(x + width * right, y + width * up, heading) for right in columns for up in rows}
         return np.array(sorted(found)).reshape(-1, 3)
 
-    def _left(self, at: FloatArray, others: FloatArray, margins: Margins) -> FloatArray:
-        """Return the other poses that no view tells from the true one which can be reached, as long as they are possible."""
+    def _left(self, at: FloatArray, others: FloatArray, stands: npt.NDArray[np.int64], margins: Margins) -> FloatArray:
+        """Return the other poses that no view tells from the true one which can be reached, as long as they are possible.
+
+        Views are compared at those that stand for others, one for each; what is free is decided at all.
+        """
         u, v, start = self._lattice(at)
-        looked = np.zeros(u.shape, dtype=np.bool_)
+        every, looked = others, np.zeros(u.shape, dtype=np.bool_)
         looked[start] = not margins.again
         while True:
             free = self._free(np.stack([at, *others]), u, v, margins)
@@ -127,7 +132,9 @@ class ViewsOracle:
             order = np.argsort(np.hypot(u[fresh], v[fresh]))
             looked |= fresh
             for ahead, aside in zip(u[fresh][order].tolist(), v[fresh][order].tolist(), strict=True):
-                others = others[~self._tells(at, others, ahead, aside, margins)]
+                which, each = np.unique(stands, return_inverse=True)
+                kept = ~self._tells(at, every[which], ahead, aside, margins)[each.reshape(-1)]
+                others, stands = others[kept], stands[kept]
 
     def _lattice(self, at: FloatArray) -> tuple[FloatArray, FloatArray, tuple[int, int]]:
         """Return places, ahead and to the left of a pose, that cover the map, and which of them is the pose itself."""
@@ -178,13 +185,13 @@ class ViewsOracle:
         return np.where(inside, values[np.where(inside, row, 0), np.where(inside, column, 0)], outside)
 
 
-def _spread(possible: Boxes) -> FloatArray:
-    """Return poses of a set, one for each cube of it; cubes are larger where there are too many."""
-    middle, size = 0.5 * (possible.lower + possible.upper), np.array([SPREAD_M, SPREAD_M, SPREAD_RAD])
+def _spread(poses: FloatArray) -> npt.NDArray[np.int64]:
+    """Return which pose stands for each, one for each cube; cubes are larger where there are too many."""
+    size = np.array([SPREAD_M, SPREAD_M, SPREAD_RAD])
     while True:
-        _, first = np.unique(np.floor(middle / size).astype(np.int64), axis=0, return_index=True)
+        _, first, cube = np.unique(np.floor(poses / size).astype(np.int64), axis=0, return_index=True, return_inverse=True)
         if len(first) <= MOST_POSES:
-            return middle[first]
+            return np.asarray(first[cube.reshape(-1)])
         size *= 1.25
 
 
