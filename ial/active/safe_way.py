@@ -81,6 +81,9 @@ def _march(start, stop, lower, upper, turns, field, place, wanted, errors, step,
                         missed = half + way * aside + turned[k] + grown[k] * way
                         # Places between two are half a step from one of them, and what may be missed has grown by then.
                         free = clear >= radius + missed + 0.5 * step * (1.0 + aside + grown[k])
+                        # Wherever in the box it is, it has started with its distance, and has lost no more of it than it has come.
+                        come = (way + 0.5 * step) * (1.0 + grown[k]) + turned[k] + rounded
+                        free = free or now - come >= radius
                         if free and clear < clearance + missed:
                             safe[chunk, k, n] = False
                     if not free:

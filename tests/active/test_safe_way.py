@@ -65,6 +65,28 @@ def test_of_several_poses_the_nearest_to_a_wall_decides() -> None:
     assert (ways[2] <= np.minimum(ways[0], ways[1])).all()
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_from_beside_a_wall_too_it_keeps_its_distances_and_can_leave(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    boxes = Boxes.around([(0.36, 2.0, 0.0)], [0.06, 0.06, 0.02])  # the wall ends at 0.05, so a part of this is too near to it
+    turns = np.array([0.0, 0.4, 1.2, math.pi / 2, math.pi])
+    ways = safe_ways(boxes, turns, 0.8, FIELD, KEPT, MOTION, LONGEST_S)
+    assert ways[0] > 0.5
+    assert ways[-1] == -1.0
+    for turn, way in zip(turns.tolist(), ways.tolist(), strict=True):
+        told = MOTION.enclose(Pose(way * math.cos(turn), way * math.sin(turn), turn), LONGEST_S)
+        half = 0.5 * (told.upper - told.lower)[:2]
+        for _ in range(300 if way > 0.0 else 0):
+            x, y, theta = random.uniform(boxes.lower[0], boxes.upper[0])
+            if distance_to_walls(GRID, x, y) < CLEARANCE_M:
+                continue
+            error = half * random.choice([-1.0, 1.0], 2)
+            for part in np.linspace(0.0, 1.0, 12).tolist():
+                ahead, aside = part * way * math.cos(turn) + error[0], part * way * math.sin(turn) + error[1]
+                at = (x + math.cos(theta) * ahead - math.sin(theta) * aside, y + math.sin(theta) * ahead + math.cos(theta) * aside)
+                assert distance_to_walls(GRID, *at) >= (CLEARANCE_M if part == 1.0 else RADIUS_M)
+
+
 def test_a_way_that_passes_too_near_to_something_ends_before_it_however_free_its_end_is() -> None:
     beside, past = Boxes.around([(2.4, 1.36, 0.0)], [0.0] * 3), Boxes.around([(2.4, 0.9, 0.0)], [0.0] * 3)  # a pillar begins at 3.0, 1.5
     assert safe_ways(beside, [0.0], 2.0, FIELD, KEPT, MOTION, LONGEST_S)[0] < 0.5
