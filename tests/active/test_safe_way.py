@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -68,13 +69,14 @@ def test_of_several_poses_the_nearest_to_a_wall_decides() -> None:
 @pytest.mark.parametrize("seed", range(4))
 def test_from_beside_a_wall_too_it_keeps_its_distances_and_can_leave(seed: int) -> None:
     random = np.random.default_rng(seed)
-    boxes = Boxes.around([(0.36, 2.0, 0.0)], [0.06, 0.06, 0.02])  # the wall ends at 0.05, so a part of this is too near to it
-    turns = np.array([0.0, 0.4, 1.2, math.pi / 2, math.pi])
-    ways = safe_ways(boxes, turns, 0.8, FIELD, KEPT, MOTION, LONGEST_S)
+    skids = replace(MOTION, translation=replace(MOTION.translation, per_radian=0.02))
+    boxes = Boxes.around([(0.39, 2.0, math.pi)], [0.03, 0.03, 0.02])  # the wall ends at 0.05, so most of this is too near to it
+    turns = np.array([math.pi, 0.8 * math.pi, 0.6 * math.pi, math.pi / 2, 0.0])
+    ways = safe_ways(boxes, turns, 0.8, FIELD, KEPT, skids, LONGEST_S)
     assert ways[0] > 0.5
     assert ways[-1] == -1.0
     for turn, way in zip(turns.tolist(), ways.tolist(), strict=True):
-        told = MOTION.enclose(Pose(way * math.cos(turn), way * math.sin(turn), turn), LONGEST_S)
+        told = skids.enclose(Pose(way * math.cos(turn), way * math.sin(turn), turn), LONGEST_S)
         half = 0.5 * (told.upper - told.lower)[:2]
         for _ in range(300 if way > 0.0 else 0):
             x, y, theta = random.uniform(boxes.lower[0], boxes.upper[0])
