@@ -100,12 +100,9 @@ class GoalChoice:
             self._chosen.clear()
             return self.choose(belief, groups, space, number)
         apart_m, count = _VIEW_EVERY * self._route.spacing_m, len(space.views(_VIEW_EVERY))
-        return Decision(
-            None,
-            "exhausted",
-            f"none of the {count} views, {apart_m:g} m apart, that can be reached safely wherever the robot is and that it has not had yet "
-            f"tells apart any two of {len(groups)} possible places, one of each group",
-        )
+        told = f"tells apart any two of {len(groups)} groups of possible poses, by one pose of each"
+        reason = f"none of {count} views {apart_m:g} m apart, safe to reach wherever the robot is and not had before, {told}"
+        return Decision(None, "exhausted", reason if count else "no view is safe to reach wherever the robot is")
 
     def _set_out(self, belief: Belief, space: CommonSpace, goals: list[Goal]) -> Decision | None:
         """Take the best goal that can be driven to; None if there is none."""
@@ -115,7 +112,7 @@ class GoalChoice:
                 self._chosen.append(goal.place)
                 self._goal = goal
                 self._born += goal.stage == "frontier"
-                return Decision(drive, goal.stage, f"the best of {len(goals)} places, {goal.cost_m:.1f} m on", goal.place, since=goal.since)
+                return Decision(drive, goal.stage, f"the best of {len(goals)} goals, {goal.cost_m:.1f} m on", goal.place, since=goal.since)
         return None
 
     def _fresh(self, goals: Iterable[Goal]) -> list[Goal]:

@@ -79,6 +79,8 @@ def explore(
     simulated = Simulated(radius, range_m, beams, fov, range_error_m, bearing_error_rad, bad_beams, adversarial)
     if clearance is not None:
         Distances(radius, clearance)
+        if any(each.replace(" ", "").startswith("robot_radius_m=") for each in settings or ()):
+            raise ConfigError("--clearance and --set robot_radius_m say the same; give one of them")
     beneath = {"robot_radius_m": radius + given.SPARE_M, **simulated.bounds(same_world=world is None)}
     resolved = resolve(config, settings or (), beneath=beneath, outliers=outliers, robot_radius_m=clearance)
     folder = out or stamped_folder(f"{'compare' if compare else 'explore'}-{surroundings.name}")

@@ -60,8 +60,8 @@ class Simulated:
             raise ConfigError(f"--beams is {self.beams}; a lidar needs at least 1 beam")
         if not 0.0 < self.fov_deg <= 360.0:
             raise ConfigError(f"--fov is {self.fov_deg:g}; give an angle above 0 and up to 360 degrees")
-        if self.bad_beams < 0:
-            raise ConfigError(f"--bad-beams is {self.bad_beams}; give 0 or a positive number")
+        if not 0 <= self.bad_beams <= self.beams:
+            raise ConfigError(f"--bad-beams is {self.bad_beams}; give a number from 0 to --beams, {self.beams}")
         if not self.errors.range_error_m >= 0.0 or not self.errors.bearing_error_rad >= 0.0:
             raise ConfigError("an error of a beam is below 0; give --range-error-m and --bearing-error-rad of 0 or more")
 

@@ -84,7 +84,7 @@ def test_where_no_view_tells_anything_that_is_said() -> None:
     groups = Groups(at, Boxes.around(at, [0.01] * 3), np.arange(2))
     decision = scene.goals.choose(scene.known, groups, ROUTE.space(scene.known, groups), 1)
     assert (decision.drive, decision.stage) == (None, "exhausted")
-    assert "views, 0.5 m apart" in decision.reason
+    assert "views 0.5 m apart" in decision.reason
     assert not scene.goals.has_goal
 
 

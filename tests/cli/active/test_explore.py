@@ -196,6 +196,8 @@ def test_bounds_follow_from_simulated_errors_unless_they_are_said(ial: Cli) -> N
         (["--fov", 361], "--fov is 361"),
         (["--drives", -1], "--drives is -1"),
         (["--bad-beams", -1], "--bad-beams is -1"),
+        (["--bad-beams", 91], "--bad-beams is 91; give a number from 0 to --beams, 90"),
+        (["--clearance", 0.3, "--set", "robot_radius_m=0.5"], "--clearance and --set robot_radius_m say the same; give one of them"),
         (["--range-error-m", -0.1], "range_error_m is -0.1"),
         (["--set", "nonsense=1"], "unknown key 'nonsense'"),
     ],
