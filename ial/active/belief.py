@@ -188,8 +188,8 @@ class Belief:
     def safe_ways(self, turns_rad: npt.ArrayLike, most_m: float) -> FloatArray:
         """Return how far it can drive after some turns (m), wherever it is, but not into a bump again; −1 where no way is safe."""
         turns, bounds = np.asarray(turns_rad, dtype=np.float64), self.localizer.config.bounds.motion
-        ways = safe_ways(self.poses, turns, most_m, self.field, self.distances, bounds, self.longest_s)
-        return self.bumps.shortened(self.moved, turns, ways)
+        limits = self.bumps.limits_m(self.moved, turns)
+        return safe_ways(self.poses, turns, most_m, self.field, self.distances, bounds, self.longest_s, limits)
 
     def groups(self, width_m: float = 1.0, most: int = 64) -> Groups:
         """Return the parts of the set that a planner tells apart.

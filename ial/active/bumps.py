@@ -32,21 +32,21 @@ class Bumps:
         """Take note of a bump straight ahead of where the robot stopped."""
         self._points.append((moved.x + self._radius_m * math.cos(moved.theta), moved.y + self._radius_m * math.sin(moved.theta)))
 
-    def shortened(self, moved: Pose, turns_rad: FloatArray, ways_m: FloatArray) -> FloatArray:
-        """Return ways that end before they lead to a bump; −1 for those that begin at one.
+    def limits_m(self, moved: Pose, turns_rad: FloatArray) -> FloatArray:
+        """Return how far it can go after some turns before it comes to a bump; infinite without one, negative where it stands at one.
 
         Parameters
         ----------
         moved
             Where the robot is, in the frame of its start.
-        turns_rad, ways_m
-            How far it would go after some turns.
+        turns_rad
+            By how much it turns first.
         """
+        limits = np.full(len(turns_rad), math.inf)
         for x, y in self._points:
             way, angle = math.hypot(x - moved.x, y - moved.y), math.atan2(y - moved.y, x - moved.x) - moved.theta
             ahead, aside = way * np.cos(turns_rad - angle), np.abs(way * np.sin(turns_rad - angle))
             reach = _ASIDE * self._radius_m
             left = ahead - np.sqrt(np.maximum(reach**2 - aside**2, 0.0))
-            meets = (ahead > 0.0) & (aside < reach) & (left < ways_m)
-            ways_m = np.where(meets, np.where(left > 0.0, left, -1.0), ways_m)
-        return ways_m
+            limits = np.where((ahead > 0.0) & (aside < reach), np.minimum(limits, left), limits)
+        return limits

@@ -98,6 +98,7 @@ def safe_ways(
     distances: Distances,
     bounds: MotionBounds,
     longest_s: float,
+    limits_m: FloatArray | None = None,
 ) -> FloatArray:
     """Return how far a robot can drive after some turns on the spot, safe wherever in a set of poses it is.
 
@@ -117,6 +118,9 @@ def safe_ways(
         How far it may be from where it is told to go, at every moment.
     longest_s
         How long a drive takes at most, in seconds.
+    limits_m
+        For each turn, how far it may go at most, for whatever reason. A shorter way than the one that is returned may be unsafe, since the
+        robot would stop elsewhere: so ways must not be cut afterwards.
 
     Returns
     -------
@@ -137,6 +141,8 @@ def safe_ways(
     wanted = distances.radius_m, distances.clearance_m, now, ROUNDINGS * (field.size_m + most_m)
     threads.run(_march, chunks, lower, upper, turns, field.distance_m, field.place_m, wanted, (turned, grown), step, count, safe, minimum=1)
     whole = np.logical_and.reduce(safe, axis=0)
+    if limits_m is not None:
+        whole &= np.arange(count) * step <= limits_m[:, None]
     last = count - 1 - np.argmax(whole[:, ::-1], axis=1)
     return np.where(whole.any(axis=1), last * step, -1.0)
 

@@ -95,6 +95,16 @@ def test_a_way_that_passes_too_near_to_something_ends_before_it_however_free_its
     assert safe_ways(past, [0.0], 2.0, FIELD, KEPT, MOTION, LONGEST_S)[0] == 2.0
 
 
+def test_a_way_with_a_limit_ends_where_a_robot_may_stop() -> None:
+    """Beside a pillar it has its radius and not its clearance: it may pass there, and may not be stopped there."""
+    beside, ahead = Boxes.around([(2.4, 1.2, 0.0)], [0.0] * 3), [0.0, 0.0, 0.0]
+    limits = np.array([math.inf, 0.9, -0.1])  # the pillar is 0.6 to 1.1 m on
+    whole, cut, none = safe_ways(beside, ahead, 2.0, FIELD, KEPT, MOTION, LONGEST_S, limits).tolist()
+    assert (whole, none) == (2.0, -1.0)
+    assert 0.0 < cut < 0.6
+    assert safe_ways(beside, [0.0], cut, FIELD, KEPT, MOTION, LONGEST_S)[0] > cut - 0.02
+
+
 def test_among_very_many_poses_one_decides() -> None:
     many, one = Boxes.around([(3.0, 1.0, 0.0)] * 300, [0.01] * 3), Boxes.around([(5.0, 1.0, 0.0)], [0.01] * 3)
     alone = safe_ways(one, [0.0], 2.0, FIELD, KEPT, MOTION, LONGEST_S)
