@@ -7,9 +7,9 @@ import typer
 
 from ial.cli.active import options as given
 from ial.cli.shell.options import ConfigPath, Json, MapTopic, Overwrite, Semantics
-from ial.cli.shell.out_folder import point_latest, stamped_folder
+from ial.cli.shell.out_folder import point_latest, stamped_folder, tell_replaced
 from ial.cli.shell.outputs import check_folder, check_outputs
-from ial.cli.shell.terminal import progress, remark, say, say_json, shown
+from ial.cli.shell.terminal import progress, say, say_json, shown
 from ial.errors import ConfigError
 
 NEVER_LOCALIZED = 3
@@ -85,10 +85,14 @@ def explore(
     resolved = resolve(config, settings or (), beneath=beneath, outliers=outliers, robot_radius_m=clearance)
     folder = out or stamped_folder(f"{'compare' if compare else 'explore'}-{surroundings.name}")
     if compare:
-        check_folder(folder, COMPARED, [*surroundings.paths, config], overwrite)
+        replaces = check_folder(folder, COMPARED, [*surroundings.paths, config], overwrite)
         rows = Comparison(surroundings, simulated, resolved, given.STARTS if starts is None else starts, seed, drives, folder).run(
             lambda runs, count: progress(runs, count, surroundings.name)
         )
+        if replaces:
+            tell_replaced(folder)
+        if out is None:
+            point_latest(folder)
         if as_json:
             say_json(rows)
         else:
@@ -107,7 +111,7 @@ def explore(
     replaces = check_folder(folder, FILES, read, overwrite)
     last, record = job.run(lambda line: None if as_json else say(line))
     if replaces:
-        remark("note", f"{shown(folder)}: these results are in the place of those of an earlier run", "cyan")
+        tell_replaced(folder)
     if out is None:
         point_latest(folder)
     if as_json:

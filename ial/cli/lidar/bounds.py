@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 import typer
 
 from ial.cli.shell.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, Overwrite, ScanTopics, Semantics
-from ial.cli.shell.out_folder import stamped_folder
+from ial.cli.shell.out_folder import stamped_folder, tell_replaced
 from ial.cli.shell.outputs import check_folder
 from ial.cli.shell.terminal import progress, remark, say, say_json, shown
 from ial.errors import ConfigError
@@ -80,7 +80,7 @@ def bounds(
         record = {"circular": truth is None, "steps_of": steps_of, **survey.record(), "suggestion": config_record(suggestion)}
         record = folder.conclude("bounds.json", record)
     if replaces:
-        remark("note", f"{shown(folder_path)}: these results are in the place of those of an earlier run", "cyan")
+        tell_replaced(folder_path)
     if as_json:
         say_json(record)
         return

@@ -7,9 +7,9 @@ import typer
 
 from ial.cli.lidar.report import report
 from ial.cli.shell.options import ConfigPath, Json, LaserPose, MapTopic, OdomTopic, Overwrite, ScanTopics, Semantics
-from ial.cli.shell.out_folder import point_latest, stamped_folder
+from ial.cli.shell.out_folder import point_latest, stamped_folder, tell_replaced
 from ial.cli.shell.outputs import check_folder
-from ial.cli.shell.terminal import remark, say, say_json, shown
+from ial.cli.shell.terminal import say, say_json, shown
 from ial.errors import ConfigError
 
 NEVER_LOCALIZED = 3
@@ -85,7 +85,7 @@ def localize(
     replaces = check_folder(folder, FILES, [*inputs.paths, config, truth], overwrite)
     summary, record = job.run()
     if replaces:
-        remark("note", f"{shown(folder)}: these results are in the place of those of an earlier run", "cyan")
+        tell_replaced(folder)
     if out is None:
         point_latest(folder)
     if as_json:

@@ -7,6 +7,8 @@ from datetime import datetime
 from itertools import count
 from pathlib import Path
 
+from ial.cli.shell.terminal import remark, shown
+
 _HOME = Path("out")
 _LATEST = "latest"
 
@@ -17,6 +19,11 @@ def stamped_folder(recording: str) -> Path:
     stem = f"{name}-{datetime.now():%Y%m%d-%H%M%S}"
     candidates = (_HOME / (stem if number == 1 else f"{stem}-{number}") for number in count(1))
     return next(each for each in candidates if not each.exists())
+
+
+def tell_replaced(folder: Path) -> None:
+    """Say that results are in the place of those of an earlier run."""
+    remark("note", f"{shown(folder)}: these results are in the place of those of an earlier run", "cyan")
 
 
 def point_latest(folder: Path) -> None:
